@@ -135,7 +135,10 @@ public class Mission(
     /** The board, for what it said of itself and what could not be read. */
     public val board: BoardPort get() = port
 
-    /** What was left out of the readings, by reason. */
+    /** Readings that the map had when the mission was taken up again; 0 where it was not. */
+    public val readingsBefore: Long get() = recovered?.readings ?: 0
+
+    /** What was left out of the readings since it began, or was taken up again, by reason. */
     public val readings: PlausibilityGate get() = survey.gate
 
     /** Time since the board said anything of the probe, or since the first step, s; NaN before. */

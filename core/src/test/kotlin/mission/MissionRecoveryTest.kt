@@ -82,6 +82,7 @@ class MissionRecoveryTest {
             assertTrue(next.mission.used < 900.0)
             // Its clock began anew, and still each reading is later than the last before.
             val all = checkNotNull(Desk.replay(cut + next.lines).recovered())
+            assertEquals(readings, next.mission.readingsBefore)
             assertEquals(readings + next.mission.readings.passed, all.readings)
             assertSame(next.mission.map, all.estimator.map)
         }

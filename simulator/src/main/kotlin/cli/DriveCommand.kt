@@ -208,7 +208,9 @@ class DriveCommand : WorkCommand("drive") {
         val why = reason?.name?.lowercase() ?: "stopped before it began$still"
         val borders = if (mission.unplaced > 0) " (${mission.unplaced} at borders, of no cell)" else ""
         val quantity = mission.spec.probe.quantity.withUnit
-        val readings = "${counted(mission.readings.passed, "reading")} of $quantity$borders"
+        val before = mission.readingsBefore
+        val resumed = if (before > 0) " ($before before it was taken up again)" else ""
+        val readings = "${counted(before + mission.readings.passed, "reading")} of $quantity$resumed$borders"
         tell("$why; $readings, ${mission.readings.leftOut} left out; log $log")
         if (reason != StopReason.COMPLETED || MapCautions.hasSurveyedNothing(mission)) throw ProgramResult(1)
     }

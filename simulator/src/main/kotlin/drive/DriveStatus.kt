@@ -78,7 +78,8 @@ internal class DriveStatus(
             // Early in the line: what does not fit on the terminal is cut off.
             silence(mission),
             mission.position?.let { "at %.1f, %.1f m".format(Locale.ROOT, it.x, it.y) } ?: "place unknown",
-            "$known of ${counted(map.grid.size, "cell")}, ${counted(mission.readings.passed, "reading")}",
+            "$known of ${counted(map.grid.size, "cell")}, " +
+                counted(mission.readingsBefore + mission.readings.passed, "reading"),
             if (mission.board.volts.isNaN()) "" else "${VOLTS.format(mission.board.volts)} V",
             mission.run { givenUpCells.size + givenUpOffMap.size }
                 .let { if (it > 0) "${counted(it, "cell")} given up" else "" },

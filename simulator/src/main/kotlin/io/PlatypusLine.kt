@@ -26,8 +26,13 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
     var clock = Double.NaN
         private set
 
-    /** What [line] says; [millis] and [clock] are set on the way. */
+    /** The boat's time at the mission's step that the line last given to [parse] tells of, s; NaN where it tells of none. */
+    var step = Double.NaN
+        private set
+
+    /** What [line] says; [millis], [clock] and [step] are set on the way. */
     fun parse(line: String): PlatypusEntry {
+        step = Double.NaN
         val payload = if (version == PlatypusVersion.LEVEL_JSON) afterLevel(line) else afterClock(line)
         if (payload == null) return PlatypusEntry.Unreadable("a line '${SHAPES.getValue(version)}'")
         return if (version == PlatypusVersion.TEXT) parseText(payload) else parseJson(payload)
@@ -37,11 +42,14 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
     fun inputs(line: String): MissionInputs? {
         val payload = if (version == PlatypusVersion.LEVEL_JSON && INPUTS in line) afterLevel(line) else null
         val json = payload?.let { LogLine.objectOrNull(it) } ?: return null
-        val step = ((json["mission"] as? JsonObject)?.get("t_s") as? JsonPrimitive)?.doubleOrNull ?: return null
+        val step = stepOf(json) ?: return null
         val inputs = json["in"] as? JsonObject ?: return null
         fun rows(key: String) = (inputs[key] as? JsonArray)?.mapNotNull { it.numbers() }.orEmpty()
         return MissionInputs(step, rows("fix"), rows("compass"))
     }
+
+    private fun stepOf(json: JsonObject): Double? =
+        ((json["mission"] as? JsonObject)?.get("t_s") as? JsonPrimitive)?.doubleOrNull?.takeIf { it.isFinite() }
 
     private fun afterLevel(line: String): String? {
         val tab = line.indexOf('\t')
@@ -98,6 +106,7 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
         val wanted = payload.startsWith("{\"cmd\"").not() && payload.startsWith("{\"gain\"").not()
         if (!wanted) return PlatypusEntry.Other
         val json = LogLine.objectOrNull(payload) ?: return PlatypusEntry.Unreadable("a JSON object")
+        step = stepOf(json) ?: Double.NaN
         return jsonPose(json["pose"]) ?: jsonSensor(json["sensor"]) ?: jsonStart(json) ?: PlatypusEntry.Other
     }
 

@@ -103,7 +103,7 @@ internal class PlatypusLog private constructor(
             if (isAhead(next)) {
                 return refuse("a time before the next line's", "${lines.millis} ms", TimeFault.AHEAD.reason)
             }
-            val seconds = clock.secondsAt(lines.millis, lines.clock)
+            val seconds = clock.secondsAt(lines.millis, lines.clock, lines.step)
             if (seconds.isNaN()) {
                 backward.refused(latestLine)
                 return refuse("a time not before the last one", "${lines.millis} ms", TimeFault.BACK.reason)

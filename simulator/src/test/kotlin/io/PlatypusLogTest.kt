@@ -87,6 +87,30 @@ class PlatypusLogTest {
         assertEquals(600.0, found.readings[1].time - found.readings[0].time, 1e-6)
     }
 
+    /** A boat whose clock ran sixty times as fast as the wall's: the log of a mission that was taken up again. */
+    @Test
+    fun wherePartsOfAMissionOverlapByTheWallsClockTheBoatsCounts() {
+        fun step(millis: Int, seconds: Double) =
+            pose(millis, 592_300.0).removeSuffix("}") + ",\"mission\":{\"t_s\":$seconds,\"state\":\"surveying\"}}"
+
+        fun log(again: Double) = listOf(
+            "0\tI\t{\"date\":\"once\",\"time\":1463679383361}",
+            step(100, 500.1),
+            sensor(60_000, 7.0),
+            step(60_100, 560.1),
+            "0\tI\t{\"date\":\"a second later\",\"time\":1463679384361}",
+            step(1, again),
+            sensor(500, 8.0),
+            step(1001, again + 1.0),
+        ).joinToString("\n")
+        val found = read(log(again = 600.1))
+        assertEquals(listOf(7.0, 8.0), found.readings.map { it.value })
+        assertEquals(40.1 + 0.499, found.readings[1].time - found.readings[0].time, 1e-6)
+        // A boat's clock that began anew as well tells nothing.
+        val problem = assertFailsWith<LogProblem> { read(log(again = 3.0)) }
+        assertEquals(6L, problem.line, problem.message)
+    }
+
     @Test
     fun placesAReadingBetweenThePosesAroundIt() {
         val text = listOf(pose(0, 592_300.0), sensor(250, 1.0), pose(1000, 592_304.0), sensor(1500, 2.0))

@@ -157,6 +157,11 @@ class TwoProcessesTest {
                 drive.interrupt()
                 assertEquals(1, drive.end(), "$drive")
                 assertContains("$drive", "operator")
+                assertContains("$drive", "before it was taken up again")
+            }
+            // The wall's clock went on by a fraction of what the boat's did.
+            Program(directory, "map", "out/mission.txt", "--numbers-only", "--quiet", "--out", "mapped").use { map ->
+                assertEquals(0, map.end(), "$map")
             }
             Program(directory, "replay", "out/mission.txt", "--numbers-only", "--out", "again").use { replay ->
                 assertEquals(0, replay.end(), "$replay")

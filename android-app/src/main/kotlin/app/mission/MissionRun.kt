@@ -123,9 +123,10 @@ internal class MissionRun(
     private fun counts(): ReadingCounts {
         val gate = mission.readings
         val waiting = gate.waiting.toLong()
+        val taken = mission.readingsBefore + gate.passed
         return ReadingCounts(
-            gate.passed + gate.leftOut + waiting,
-            gate.passed,
+            taken + gate.leftOut + waiting,
+            taken,
             waiting,
             gate.outOfRange,
             gate.lone,
