@@ -44,11 +44,14 @@ internal class DriveStatus(
             if (now - shownAt < LIVE_NANOS) return
             shownAt = now
             wipe()
-            terminal.rawPrint(line(mission, time).take(terminal.size.width - 1))
+            terminal.rawPrint(line(mission, time).take(room()))
         } else if (time.seconds - shownTime >= MINUTE || waitsForOther(mission, time)) {
             changed(mission, time)
         }
     }
+
+    /** How much of a line fits on the terminal, characters; a width of 0 is that of one that does not know its own. */
+    private fun room() = (if (terminal.size.width > 0) terminal.size.width else USUAL_WIDTH) - 1
 
     private fun waitsForOther(mission: Mission, time: BoatTime) =
         time.seconds - shownTime >= PAUSE && kinds(mission, time) != shownWaiting
@@ -121,6 +124,7 @@ internal class DriveStatus(
     private companion object {
         const val LIVE_NANOS = 250_000_000L
         const val MINUTE = 60.0
+        const val USUAL_WIDTH = 80
 
         /** Between two lines on what is waited for, s. */
         const val PAUSE = 5.0

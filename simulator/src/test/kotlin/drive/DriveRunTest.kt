@@ -203,6 +203,20 @@ class DriveRunTest {
         assertContains(recorder.stdout(), Regex("surveying, no dissolved oxygen on port 1 for \\d+ s"))
     }
 
+    /** A terminal may be of any size, and one that does not know its own says 0. */
+    @Test
+    fun noTerminalEndsAMission() {
+        for ((width, height) in listOf(0 to 0, 0 to 24, 1 to 1, 2 to 0, 79 to 24)) {
+            recorder = TerminalRecorder(width = width, height = height)
+            val afloat = Afloat()
+            afloat.run.start()
+            afloat.meanwhile = { if (afloat.mission.readings.passed > 5) afloat.run.stop() }
+            assertEquals(StopReason.OPERATOR, afloat.sail(), "$width x $height")
+            if (width == 0) assertContains(recorder.stdout(), "\u001b[K    0.1 s  ")
+            directory.resolve("mission.txt.incomplete").toFile().delete()
+        }
+    }
+
     private companion object {
         const val MOST_STEPS = 3000
     }
