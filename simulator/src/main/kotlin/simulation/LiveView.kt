@@ -76,12 +76,12 @@ internal class LivePicture(private val run: MissionRun) {
         while (trace.size > LONGEST_TRACE) trace.removeFirst()
     }
 
-    /** The picture for a terminal of [width] by [height] characters. */
+    /** The picture for a terminal of [width] by [height] characters; 0 of those where it does not say. */
     fun draw(width: Int, height: Int): String {
         val lines = ArrayList<String>()
         lines += heading()
         val room = maxOf(LEAST_ROWS, height - TRACE_ROWS - TEXT_ROWS)
-        lines += map(minOf(width / 2, WIDEST), room)
+        lines += map((width / 2).coerceIn(1, WIDEST), room)
         lines += trace(width - LABEL)
         lines += counters()
         return lines.joinToString("\n")

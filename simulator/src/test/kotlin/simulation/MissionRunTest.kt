@@ -1,5 +1,9 @@
 package stillwater.simulation
 
+import com.github.ajalt.mordant.rendering.Size
+import com.github.ajalt.mordant.terminal.Terminal
+import com.github.ajalt.mordant.terminal.TerminalInterface
+import com.github.ajalt.mordant.terminal.TerminalRecorder
 import org.junit.jupiter.api.Test
 import stillwater.mission.EstimatorName
 import stillwater.mission.MissionState
@@ -125,11 +129,31 @@ class MissionRunTest {
             run.step()
             picture.listen()
         }
-        for ((width, height) in listOf(100 to 40, 40 to 24, 12 to 5)) {
+        for ((width, height) in listOf(100 to 40, 40 to 24, 12 to 5, 1 to 1, 0 to 0)) {
             val lines = picture.draw(width, height).lines()
             assertTrue(lines.size <= maxOf(height, 20), "${lines.size} lines in $height")
             assertTrue(lines.any { "@" in it }, "the boat is shown")
         }
         assertTrue("surveying" in picture.draw(100, 40))
+    }
+
+    /** A person may draw a terminal's window to nothing and back. */
+    @Test
+    fun aTerminalThatChangesItsSizeEndsNoRun() {
+        val run = MissionRun(SmallMission.pond("averaging"), WorldSettings(seed = 526, board = older)) {}
+        var size = Size(80, 24)
+        val recorder = object : TerminalInterface by TerminalRecorder() {
+            override fun getTerminalSize() = size
+        }
+        val view = LiveView(Terminal(terminalInterface = recorder), run, speed = 1e6)
+        for (next in listOf(Size(0, 0), Size(1, 24), Size(2, 0), Size(80, 1), Size(100, 40))) {
+            size = next
+            repeat(300) {
+                run.step()
+                view.watch()
+            }
+            view.end()
+        }
+        assertTrue(run.readings.taken.size > 50, "${run.readings.taken.size} readings")
     }
 }
