@@ -5,6 +5,8 @@ import com.github.ajalt.clikt.parameters.options.RawOption
 import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.option
+import com.github.ajalt.clikt.parameters.options.validate
+import stillwater.io.SquareReach
 import stillwater.mission.MissionSpec
 import stillwater.model.Interval
 import stillwater.run.label
@@ -31,6 +33,10 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
         metavar = "LOW,HIGH",
         help = "range of the water at the cells' centres, sensor units; without it the middle 80 % of the mission's",
     ).numberPair(',', "two numbers, the first below the second") { low, high -> low < high }
+        .validate { (low, high) ->
+            val expected = SquareReach.rangeProblem(low, high) ?: return@validate
+            throw BadFlag("--field-range", expected, "'$low,$high'")
+        }
     private val waterSeed by option(
         "--field-seed",
         metavar = "N",

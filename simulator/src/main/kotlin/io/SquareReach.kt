@@ -11,6 +11,16 @@ internal object SquareReach {
     const val LARGEST = 1e60
     private const val SMALLEST = 1e-30
 
+    /** What a range from [low] to [high] should be, and is not; null where it can be estimated in and drawn. */
+    fun rangeProblem(low: Double, high: Double): String? {
+        val largest = maxOf(abs(low), abs(high))
+        return when {
+            largest > LARGEST -> "numbers within -$LARGEST..$LARGEST"
+            largest < SMALLEST -> "a range with an end beyond ±$SMALLEST"
+            else -> null
+        }
+    }
+
     /**
      * Refuses [log] if one of [columns] holds a larger number, or none but smaller ones beside 0; NaN stands for none.
      *

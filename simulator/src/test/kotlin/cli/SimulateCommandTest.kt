@@ -161,6 +161,11 @@ class SimulateCommandTest {
             listOf("$mission", "--sensor", "$text") to "text.json:1:1: expected an object in braces with name, stages",
             listOf("$mission", "--field", "calm") to "--field: expected one of uniform, gaussian, smooth",
             listOf("$mission", "--field-range", "5,2") to "--field-range: expected two numbers, the first below",
+            listOf(
+                "$mission",
+                "--field-range=-1e308,1e308",
+            ) to "--field-range: expected numbers within -1.0E60..1.0E60",
+            listOf("$mission", "--field-range", "0,1e-300") to "--field-range: expected a range with an end beyond",
             listOf("$mission", "--wind", "strong") to "--wind: expected velocities east and north",
             listOf(
                 "$mission",

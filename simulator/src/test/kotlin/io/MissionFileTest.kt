@@ -79,6 +79,32 @@ class MissionFileTest {
         }
     }
 
+    /** Of these estimators or figures made no numbers, and the mission was lost at its end. */
+    @Test
+    fun aProbeThatCannotBeReckonedWithIsRefused() {
+        for ((lowest, highest, expected) in listOf(
+            Triple(
+                "-1e308",
+                "1e308",
+                "6:85: probe.highest: expected numbers within -1.0E60..1.0E60, found -1.0E308 to",
+            ),
+            Triple("-1e61", "15", "6:66: probe.lowest: expected numbers within -1.0E60..1.0E60, found -1.0E61 to 15.0"),
+            Triple("0", "1e300", "6:80: probe.highest: expected numbers within -1.0E60..1.0E60, found 0.0 to 1.0E300"),
+            Triple(
+                "0",
+                "1e-300",
+                "6:80: probe.highest: expected a range with an end beyond ±1.0E-30, found 0.0 to 1.0E-300",
+            ),
+        )) {
+            val said = problem("\"lowest\": 0, \"highest\": 15", "\"lowest\": $lowest, \"highest\": $highest")
+            assertEquals("pond.json:$expected", said.take("pond.json:$expected".length))
+        }
+        val slow = "6:111: probe.longest_time_constant_s: expected at most 1.0E9 s (32 years), found 1.0E308 s"
+        assertEquals("pond.json:$slow", problem("15}", "15, \"longest_time_constant_s\": 1e308}"))
+        val large = POND.replace("\"highest\": 15", "\"highest\": 1e60")
+        assertEquals(1e60, MissionFile.parse(large, "pond.json").probe.highest)
+    }
+
     @Test
     fun whatIsNoJsonIsSaidToo() {
         for ((text, expected) in listOf(
