@@ -13,6 +13,7 @@ class SailedTrack {
     private var xs = DoubleArray(FIRST)
     private var ys = DoubleArray(FIRST)
     private var before = emptyList<Position>()
+    private var wasUnderWay = false
     private var legStart: Position? = null
     private var squares = 0.0
     private var pointing = 0L
@@ -23,8 +24,12 @@ class SailedTrack {
     var size: Int = 0
         private set
 
-    /** Way over ground, m. */
+    /** Way over ground, drift before the mission's start and after its end included, m. */
     var distance: Double = 0.0
+        private set
+
+    /** Way over ground in the states in which the boat is under way, m. */
+    var distanceUnderWay: Double = 0.0
         private set
 
     /** Largest distance from a leg while surveying, m. */
@@ -63,7 +68,13 @@ class SailedTrack {
     /** The boat is at ([x], [y]), m, at [time], s, and sails as [mission] wants. */
     fun add(time: Double, x: Double, y: Double, mission: Mission) {
         if (size == times.size) grow()
-        if (size > 0) distance += hypot(x - xs[size - 1], y - ys[size - 1])
+        if (size > 0) {
+            val step = hypot(x - xs[size - 1], y - ys[size - 1])
+            distance += step
+            // A state lasts until the step that finds another.
+            if (wasUnderWay) distanceUnderWay += step
+        }
+        wasUnderWay = mission.state.isUnderWay
         times[size] = time
         xs[size] = x
         ys[size] = y

@@ -65,6 +65,7 @@ internal object SimulationJson {
         val run = result.run
         putJsonObject("way") {
             put("distance_m", run.track.distance)
+            put("distance_under_way_m", run.track.distanceUnderWay)
             put("under_way_s", round(result.timeUnderWay))
             put("used", run.mission.used)
             put("used_in", if (run.spec.budget.metres != null) "m" else "s")

@@ -90,9 +90,9 @@ class SimulationResult(val run: MissionRun, val film: Film, val longest: Double)
     /** What the estimator believes of the probe; null where it has no model of one. */
     val belief: SensorBelief? = run.mission.sensor
 
-    /** Time between start and end of the way, s: all states in which the boat may move. */
+    /** Time between start and end of the way, s: all states in which the boat is under way. */
     val timeUnderWay: Double = run.history.spans
-        .filter { mayMove(it.state) }
+        .filter { it.state.isUnderWay }
         .sumOf { it.until - it.from }
 
     /** The true value at the centre of [cell], sensor units. */
@@ -100,9 +100,6 @@ class SimulationResult(val run: MissionRun, val film: Film, val longest: Double)
 
     /** The true mean over [cell], sensor units. */
     fun mean(cell: Int): Double = means[cell]
-
-    private fun mayMove(state: MissionState) =
-        state == MissionState.Surveying || state is MissionState.Holding || state is MissionState.Returning
 
     private fun isInBoth(cell: Int) = map.readings(cell) > 0 && inProcess.readings(cell) > 0
 

@@ -36,7 +36,7 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         "Map error" to "${number(result.atCentres.mean)} $unit".trim(),
         "The same readings in process" to "${number(result.inProcessError.mean)} $unit".trim(),
         "Cells with readings" to "${result.atCentres.cells} of ${run.world.site.grid.size}",
-        "Way" to "${number(run.track.distance)} m",
+        "Way" to "${number(run.track.distanceUnderWay)} m",
         "Off the legs" to "${number(run.track.crossTrack)} m RMS",
     )
 
@@ -86,7 +86,7 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
             "mission ${number(own.mean)} over the same ${counted(own.cells, "cell")}$times"
     }
 
-    private fun way() = "${number(run.track.distance)} m in ${clock(result.timeUnderWay)}; " +
+    private fun way() = "${number(run.track.distanceUnderWay)} m in ${clock(result.timeUnderWay)}; " +
         "${number(run.track.crossTrack)} m RMS off its legs (largest ${number(run.track.largestCrossTrack)} m), " +
         "believed place off by ${number(run.track.poseError)} m RMS"
 

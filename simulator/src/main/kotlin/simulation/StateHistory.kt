@@ -22,6 +22,10 @@ data class StateSpan(val state: MissionState, val from: Double, val until: Doubl
         }?.lowercase()?.replace('_', '-')
 }
 
+/** Whether the boat may move in this state: it is between the start and the end of its way. */
+internal val MissionState.isUnderWay: Boolean
+    get() = this == MissionState.Surveying || this is MissionState.Holding || this is MissionState.Returning
+
 /** The states of a mission, one after the other. */
 class StateHistory {
     private val ended = ArrayList<StateSpan>()
