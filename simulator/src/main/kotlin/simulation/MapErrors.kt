@@ -10,7 +10,7 @@ import kotlin.math.sqrt
  * @property cells how many these are.
  * @property mean absolute difference, sensor units; NaN without any cell.
  * @property rootMeanSquare difference, sensor units; NaN without any cell.
- * @property largest absolute difference, sensor units; 0 without any cell.
+ * @property largest absolute difference, sensor units; NaN without any cell.
  */
 data class MapErrors(val cells: Int, val mean: Double, val rootMeanSquare: Double, val largest: Double) {
     companion object {
@@ -18,8 +18,8 @@ data class MapErrors(val cells: Int, val mean: Double, val rootMeanSquare: Doubl
         fun of(map: FieldMap, counts: (Int) -> Boolean = { map.readings(it) > 0 }, truth: (Int) -> Double): MapErrors {
             var sum = 0.0
             var squares = 0.0
-            var largest = 0.0
             val cells = (0 until map.grid.size).filter(counts)
+            var largest = if (cells.isEmpty()) Double.NaN else 0.0
             for (cell in cells) {
                 val error = abs(map.value(cell) - truth(cell))
                 sum += error

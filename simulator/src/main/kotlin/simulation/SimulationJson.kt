@@ -131,7 +131,7 @@ internal object SimulationJson {
         put("cells", errors.cells)
         put("mean_abs", finite(errors.mean))
         put("rms", finite(errors.rootMeanSquare))
-        put("largest", errors.largest)
+        put("largest", finite(errors.largest))
     }
 
     private fun JsonObjectBuilder.holding(name: String, holding: BoundsHolding) = putJsonObject(name) {

@@ -1,6 +1,7 @@
 package stillwater.simulation
 
 import kotlinx.serialization.json.Json
+import kotlinx.serialization.json.JsonNull
 import kotlinx.serialization.json.JsonObject
 import kotlinx.serialization.json.double
 import kotlinx.serialization.json.jsonObject
@@ -48,6 +49,14 @@ class SimulationSummaryTest {
     fun aBoatThatDidNotSetOutHasNoWay() {
         val result = sail(drifting, longest = 10.0)
         assertTrue(result.run.track.distance > 1, "${result.run.track.distance} m of drift")
-        assertContains(result.fact("way"), "0 m in 0:00 min")
+        assertEquals("0 m in 0:00 min", result.fact("way").substringBefore(";"))
+    }
+
+    @Test
+    fun overNoCellThereIsNoError() {
+        // Before the board is awake.
+        val result = sail(drifting, longest = 1.0)
+        val errors = result.json().getValue("map").jsonObject.getValue("error_at_centres").jsonObject
+        for (name in listOf("mean_abs", "rms", "largest")) assertEquals(JsonNull, errors[name], name)
     }
 }
