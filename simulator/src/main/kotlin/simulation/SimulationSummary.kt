@@ -16,9 +16,7 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
 
     /** Names and sentences, the most important first. */
     val facts: List<Pair<String, String>> = buildList {
-        val end = run.history.spans.last()
-        val nothing = if (MapCautions.hasSurveyedNothing(run.mission)) ", nothing surveyed" else ""
-        add("mission" to "${run.spec.name}: ${end.label} after ${clock(end.from)}$nothing")
+        add("mission" to "${run.spec.name}: ${end()}")
         add("map error" to mapError())
         add("in process" to inProcess())
         add("way" to way())
@@ -32,7 +30,7 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
 
     /** The few numbers that stand at the top of a page. */
     val headline: List<Pair<String, String>> = listOf(
-        "End" to run.history.spans.last().label,
+        "End" to run.history.spans.last().label.let { if (result.isOver) it else "not over, $it" },
         "Map error" to "${number(result.atCentres.mean)} $unit".trim(),
         "The same readings in process" to "${number(result.inProcessError.mean)} $unit".trim(),
         "Cells with readings" to "${result.atCentres.cells} of ${run.world.site.grid.size}",
@@ -72,6 +70,14 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
     private val space get() = if (unit.isEmpty()) "" else " "
 
     private fun mapError(): String {
+    /** How the mission ended, or how far it is. */
+    private fun end(): String {
+        val last = run.history.spans.last()
+        if (!result.isOver) return "not over after ${clock(run.time.seconds)}: ${last.label} since ${clock(last.from)}"
+        val nothing = if (MapCautions.hasSurveyedNothing(run.mission)) ", nothing surveyed" else ""
+        return "${last.label} after ${clock(last.from)}$nothing"
+    }
+
         val centres = result.atCentres
         return "${number(centres.mean)}$space$unit mean, ${number(centres.rootMeanSquare)} RMS over " +
             "${centres.cells} of ${run.world.site.grid.size} cells at their centres; " +

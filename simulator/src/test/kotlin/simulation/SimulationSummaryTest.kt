@@ -27,6 +27,22 @@ class SimulationSummaryTest {
     private fun SimulationResult.json(): JsonObject =
         Json.parseToJsonElement(SimulationJson.text(this, emptyList())).jsonObject
 
+    @Test
+    fun aMissionThatIsNotOverIsToldByTheTimeItHad() {
+        val result = sail(drifting, longest = 60.0)
+        val since = SimulationSummary.clock(result.run.history.spans.last().from)
+        assertEquals("pond: not over after 1:00 min: surveying since $since", result.fact("mission"))
+        assertTrue(since != "1:00 min")
+        assertEquals("not over, surveying", SimulationSummary(result, "mg/L").headline.toMap()["End"])
+    }
+
+    @Test
+    fun aMissionThatIsOverIsToldByWhenItEnded() {
+        val result = sail(drifting, longest = 1000.0)
+        val end = SimulationSummary.clock(result.run.history.spans.last().from)
+        assertEquals("pond: stopped (completed) after $end", result.fact("mission"))
+    }
+
     /** A boat drifts before its mission begins and after it is over; that is no part of its way. */
     @Test
     fun theWayIsThatOfTheTimeUnderWay() {
