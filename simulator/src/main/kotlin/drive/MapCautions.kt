@@ -75,7 +75,8 @@ internal object MapCautions {
     /** [value] as the mission has it. */
     private fun number(value: Double) = value.toBigDecimal().stripTrailingZeros().toPlainString()
 
-    private fun givenUp(mission: Mission): String? {
+    /** Which cells [mission] gave up, the first [MOST_NAMED] by their centres; null where there are none. */
+    fun givenUp(mission: Mission): String? {
         val grid = mission.map.grid
         val cells = mission.givenUpCells.map { Position(grid.centerX(it), grid.centerY(it)) } + mission.givenUpOffMap
         if (cells.isEmpty()) return null

@@ -65,11 +65,11 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
             )
         }
         if (result.atCentres.cells == 0) add("no cell has a reading")
+        MapCautions.givenUp(run.mission)?.let { add(it) }
     }
 
     private val space get() = if (unit.isEmpty()) "" else " "
 
-    private fun mapError(): String {
     /** How the mission ended, or how far it is. */
     private fun end(): String {
         val last = run.history.spans.last()
@@ -78,6 +78,7 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         return "${last.label} after ${clock(last.from)}$nothing"
     }
 
+    private fun mapError(): String {
         val centres = result.atCentres
         return "${number(centres.mean)}$space$unit mean, ${number(centres.rootMeanSquare)} RMS over " +
             "${centres.cells} of ${run.world.site.grid.size} cells at their centres; " +

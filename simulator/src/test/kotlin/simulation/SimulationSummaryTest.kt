@@ -75,4 +75,17 @@ class SimulationSummaryTest {
         val errors = result.json().getValue("map").jsonObject.getValue("error_at_centres").jsonObject
         for (name in listOf("mean_abs", "rms", "largest")) assertEquals(JsonNull, errors[name], name)
     }
+
+    @Test
+    fun cellsThatWereGivenUpAreNamed() {
+        // As fast as the boat cruises: it comes no nearer to what lies upstream.
+        val result = sail(drifting.copy(current = Flow(1.0, 0.0)), longest = 600.0)
+        val count = result.run.mission.run { givenUpCells.size + givenUpOffMap.size }
+        assertTrue(count > 0, "no cell was given up")
+        val warnings = SimulationSummary(result, "mg/L").warnings
+        assertContains(
+            warnings.joinToString("\n"),
+            Regex("$count cells? given up, because the boat came no nearer: \\("),
+        )
+    }
 }
