@@ -71,9 +71,7 @@ internal fun run(command: CliktCommand, args: Array<String>, isTraced: Boolean, 
         val message = "'${path.input}' cannot be a path in this locale (${path.reason}); set LC_ALL=C.UTF-8"
         failed(message, path, BAD_INPUT)
     } catch (full: OutOfMemoryError) {
-        val megabytes = Runtime.getRuntime().maxMemory() / (1L shl 20)
-        val remedy = "give Java more (java -Xmx2g -jar ...), ask for fewer cells, or give a shorter log"
-        failed("$megabytes MB of memory are not enough; $remedy", full, BAD_INPUT)
+        failed(tooLittleMemory(Runtime.getRuntime().maxMemory()), full, BAD_INPUT)
     } catch (
         @Suppress("TooGenericExceptionCaught") bug: Throwable,
     ) {
@@ -82,6 +80,17 @@ internal fun run(command: CliktCommand, args: Array<String>, isTraced: Boolean, 
         failed("a mistake in the program (${bug.javaClass.simpleName}: $what)$remedy", bug, BUG)
     }
 }
+
+/** That a heap of at most [bytes] is not enough, and what to do: twice as much, in whole GB. */
+internal fun tooLittleMemory(bytes: Long): String {
+    val megabytes = bytes / MEGABYTE
+    val gigabytes = (2 * megabytes + MEGABYTES_IN_A_GIGABYTE - 1) / MEGABYTES_IN_A_GIGABYTE
+    return "$megabytes MB of memory are not enough; give Java more (java -Xmx${gigabytes}g -jar ...) if the machine " +
+        "has it, ask for fewer cells, or give a shorter log"
+}
+
+private const val MEGABYTE = 1L shl 20
+private const val MEGABYTES_IN_A_GIGABYTE = 1024
 
 /** In the environment: a mistake in the program is told with the place where it happened. */
 private const val TRACE = "STILLWATER_TRACE"

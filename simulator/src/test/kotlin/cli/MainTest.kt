@@ -42,7 +42,12 @@ class MainTest {
     fun tooLittleMemoryIsTheMachinesAndSaysWhatToDo() {
         val (status, lines) = outcome(OutOfMemoryError(), false)
         assertEquals(2, status)
-        assertTrue("-Xmx2g" in lines.single(), "$lines")
+        assertEquals("stillwater: ${tooLittleMemory(Runtime.getRuntime().maxMemory())}", lines.single())
+        for ((megabytes, flag) in listOf(256L to "-Xmx1g", 1024L to "-Xmx2g", 1025L to "-Xmx3g", 5827L to "-Xmx12g")) {
+            val words = tooLittleMemory(megabytes shl 20)
+            val begin = "$megabytes MB of memory are not enough; give Java more (java $flag -jar ...)"
+            assertEquals("$begin if the machine has it, ask for fewer cells, or give a shorter log", words)
+        }
     }
 
     @Test
