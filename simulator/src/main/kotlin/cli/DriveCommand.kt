@@ -15,6 +15,7 @@ import stillwater.drive.DriveRun
 import stillwater.drive.DriveStatus
 import stillwater.drive.LogOnDisk
 import stillwater.drive.MapCautions
+import stillwater.drive.MissionDifference
 import stillwater.drive.MissionMapFiles
 import stillwater.drive.Phone
 import stillwater.drive.PhoneChannel
@@ -169,7 +170,10 @@ class DriveCommand : WorkCommand("drive") {
     /** In what [found] is not [wanted]. */
     private fun otherThan(wanted: MissionSpec, found: MissionSpec): String {
         val mixing = found.boat.mixing
-        if (found != wanted.copy(boat = wanted.boat.copy(mixing = mixing))) return "another one, ${found.name}"
+        if (found != wanted.copy(boat = wanted.boat.copy(mixing = mixing))) {
+            if (found.name != wanted.name) return "another one, ${found.name}"
+            return "another one of the same name, in which ${MissionDifference.words(wanted, found)}"
+        }
         // Older versions did not write down that a boat was vectored.
         val then = if (mixing == Mixing.VECTORED) {
             "add --vectored"

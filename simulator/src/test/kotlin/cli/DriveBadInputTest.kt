@@ -104,6 +104,10 @@ class DriveBadInputTest {
             directory.resolve("pond.json").writeText(POND.replace("\"pond\"", "\"lake\""))
             assertRefused("expected the mission of $mission, found another one, pond", *drive(*flags))
             assertEquals(lines, log.readText())
+            val other = POND.replace("\"seconds\":300", "\"seconds\":301").replace("\"port\":1,", "")
+            directory.resolve("pond.json").writeText(other)
+            val keys = "probe.port is 1, not left out, budget.seconds is 300.0, not 301.0"
+            assertRefused("found another one of the same name, in which $keys", *drive(*flags))
             directory.resolve("pond.json").writeText(POND)
             assertRefused("found it with boat.mixing differential; leave --vectored", *drive(*flags, "--vectored"))
             val vectored = "\"boat\":{\"mixing\":\"vectored\"},\"home\""
