@@ -25,11 +25,20 @@ internal enum class SerialTrouble(private val why: String) {
     OTHER("this port cannot be opened"),
     ;
 
-    /** In one line: [name] is the port, [ports] are those that there are, [error] the system's number; 0 for none. */
+    /** In one line: [name] is the port, [ports] the system's list of them, [error] the system's number; 0 for none. */
     fun words(name: String, ports: List<String>, error: Int = 0): String {
         val number = if (this == OTHER) " (error $error)" else ""
-        val others = if (ports.isEmpty()) "this machine has no serial ports" else "there are ${ports.joinToString()}"
-        return "$name: $why$number; $others"
+        val isListed = name in ports
+        // A system lists ports that it has a driver for, also where there is no hardware.
+        val isEmpty = this == NO_PORT && isListed
+        val what = if (isEmpty) "expected a serial port, found a name with no port behind it" else why
+        val others = ports - name
+        val which = when {
+            others.isNotEmpty() -> "there are ${others.joinToString()}"
+            isListed -> "this machine has no other"
+            else -> "this machine has no serial ports"
+        }
+        return "$name: $what$number; $which"
     }
 
     companion object {

@@ -154,6 +154,12 @@ class WiresTest {
         assertTrue("another program" in words(5, true))
         assertTrue("found none" in words(2, true))
         assertEquals("COM3: this port cannot be opened (error 99); this machine has no serial ports", words(99, false))
+        fun listed(error: Int, vararg ports: String) =
+            SerialTrouble.of(error, isWindows = false).words("/dev/ttyS0", ports.toList())
+        val empty = "/dev/ttyS0: expected a serial port, found a name with no port behind it; "
+        assertEquals("${empty}this machine has no other", listed(25, "/dev/ttyS0"))
+        assertEquals("${empty}there are /dev/ttyACM0", listed(25, "/dev/ttyACM0", "/dev/ttyS0"))
+        assertTrue(listed(16, "/dev/ttyS0").endsWith("; this machine has no other"))
         if ("linux" !in System.getProperty("os.name").lowercase()) return
         val problem = assertFailsWith<WireProblem> { WireAddress.Serial("/dev/null", 9600).opener().open() }
         assertTrue("/dev/null: expected a serial port, found something else" in problem.message.orEmpty(), "$problem")
