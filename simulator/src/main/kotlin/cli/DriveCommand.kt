@@ -198,6 +198,7 @@ class DriveCommand : WorkCommand("drive") {
     }
 
     private fun finish(mission: Mission, file: LogOnDisk, directory: Path, reason: StopReason?) {
+        file.missing()?.let { echo("warning: $it", err = true) }
         // The map comes first: a log that claims to be complete without it would not be gone on with.
         val warnings = OutputDirectory(directory).use {
             val missing = MissionMapFiles.write(it, mission.spec, mission.map, !numbersOnly)

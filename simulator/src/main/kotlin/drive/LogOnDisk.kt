@@ -6,6 +6,7 @@ import stillwater.mission.LogSink
 import stillwater.mission.MissionRecovery
 import stillwater.mission.RecoveredMission
 import stillwater.report.OutputException
+import stillwater.report.counted
 import java.io.ByteArrayOutputStream
 import java.io.Closeable
 import java.io.FilterInputStream
@@ -62,6 +63,20 @@ internal class LogOnDisk(private val path: Path, private val file: LogBytes) :
             waiting.write(bytes.array(), bytes.position(), bytes.remaining())
         }
         file.force()
+    }
+
+    /** That lines are missing at its end, after one more try to write them, and how many; null where the disk has all. */
+    fun missing(): String? {
+        try {
+            flush()
+            return null
+        } catch (_: OutputException) {
+            val lines = waiting.toByteArray().count { it == '\n'.code.toByte() }
+            return "$path lacks the last ${counted(
+                lines,
+                "line",
+            )}, with the readings in them: the disk is full or broken"
+        }
     }
 
     /** Closes a log that is whole and gives it its final name, which it answers. */

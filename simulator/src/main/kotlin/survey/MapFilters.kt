@@ -17,13 +17,13 @@ import stillwater.run.LagFilterSettings
  *
  * Confined to one thread.
  *
- * @param bounded settings of the bounded filter. @param lag those of the filters that reckon with a lag.
+ * @property prior range of the field that they take. @param bounded settings of the bounded filter. @param lag those of the filters that reckon with a lag.
  * @param statistics what the readings look like.
  */
 internal class MapFilters(
     settings: MapSettings,
     grid: Grid,
-    prior: Interval,
+    val prior: Interval,
     bounded: BoundedFilterSettings,
     lag: LagFilterSettings,
     statistics: SurveyStatistics,
@@ -75,6 +75,18 @@ internal class MapFilters(
     /** There are no more readings: what is learned of the sensor is learned from all of them. */
     fun finish() {
         for (estimator in running) learner(estimator)?.learnFromAll()
+    }
+
+    /**
+     * Those that [make] makes for a range as wide as what is known of the water's, with all that is [kept] taken; these where
+     * that is no wider.
+     */
+    fun widened(kept: KeptReadings, make: (Interval) -> MapFilters): MapFilters {
+        val wider = WaterRange.wider(prior, knownRange) ?: return this
+        return make(wider).also { filters ->
+            kept.read { time, x, y, value, _ -> filters.take(time, x, y, value) }
+            filters.finish()
+        }
     }
 
     /** What of the water's range was learned from all readings; null where that cannot be told. */

@@ -57,7 +57,7 @@ data class MapSettings(
  * A log turned into maps, with all that was found out on the way.
  *
  * @property log the log. @property pass what reading it came to. @property statistics what it looks like.
- * @property track its track, thinned. @property grid the grid. @property prior range of the field taken.
+ * @property track its track, thinned. @property grid the grid.
  * @property calibration how epsilon was found, or null where it was given or nobody needed it.
  * @property bounded settings of the bounded filter, or null where it did not run.
  * @property gaps silences longer than five median steps. @property passes passes through the same cells compared.
@@ -73,7 +73,6 @@ class SurveyMap internal constructor(
     val statistics: SurveyStatistics,
     val track: Track,
     val grid: Grid,
-    val prior: Interval,
     val calibration: Calibration?,
     val bounded: BoundedFilterSettings?,
     private val filters: MapFilters,
@@ -91,6 +90,9 @@ class SurveyMap internal constructor(
 
     /** The estimator that learned the time constant, or null where it did not run. */
     val learned: SelfCalibratingEstimator? get() = filters.learned
+
+    /** Range of the field taken, sensor units. */
+    val prior: Interval get() = filters.prior
 
     /** How well the corrected readings of each cell are known; null where the readings themselves are mapped. */
     val corrected: CorrectedCells? get() = filters.corrected
@@ -171,12 +173,13 @@ class SurveyMap internal constructor(
             val calibration = look.epsilon.calibration(log)?.atLeast(stepSlope)
             requireOnGlobe(log, settings.grid)
             val grid = GridChoice(statistics, track).grid(settings.grid)
-            var prior = settings.prior ?: WaterRange.ofReadings(statistics)
+            val prior = settings.prior ?: WaterRange.ofReadings(statistics)
             val bounded = boundedSettings(settings, calibration)
             val forBounded = bounded ?: BoundedFilterSettings(epsilon = 0.0)
             val interval = interval(settings, statistics)
             val lag = settings.lagFilters.copy(interval = interval.settings)
-            var filters = MapFilters(settings, grid, prior, forBounded, lag, statistics)
+            fun filters(range: Interval) = MapFilters(settings, grid, range, forBounded, lag, statistics)
+            val filters = filters(prior)
             val passes = CellPasses(grid)
             val gaps = Gaps(statistics.gapLimit)
             var outsideRange = 0L
@@ -190,13 +193,7 @@ class SurveyMap internal constructor(
             if (kept.holds(first.readings)) kept.read(takeIn) else log.read(settings, { progress(bytes + it) }, takeIn)
             progress(2 * bytes)
             filters.finish()
-            val wider = WaterRange.wider(prior, filters.knownRange).takeIf { settings.prior == null }
-            if (wider != null && kept.holds(first.readings)) {
-                prior = wider
-                filters = MapFilters(settings, grid, prior, forBounded, lag, statistics)
-                kept.read { time, x, y, value, _ -> filters.take(time, x, y, value) }
-                filters.finish()
-            }
+            val mayWiden = settings.prior == null && kept.holds(first.readings)
             passes.finish()
             SurveyMap(
                 log,
@@ -204,10 +201,9 @@ class SurveyMap internal constructor(
                 statistics,
                 track,
                 grid,
-                prior,
                 calibration,
                 bounded,
-                filters,
+                if (mayWiden) filters.widened(kept, ::filters) else filters,
                 gaps,
                 passes,
                 legs,
@@ -279,6 +275,5 @@ class SurveyMap internal constructor(
         private fun boundedSettings(settings: MapSettings, calibration: Calibration?) = settings.boundedFilter
             .copy(epsilon = settings.epsilon ?: calibration?.epsilon ?: 0.0)
             .takeIf { FilterKind.BOUNDED in settings.filters }
-
     }
 }

@@ -212,7 +212,11 @@ class ReplayCommandTest {
         val map = directory.resolve("averaged/cells.csv").readLines().drop(1).sumOf { it.split(',')[7].toInt() }
         val before = averaged.count("readings", "taken_before_it_was_taken_up_again")
         assertTrue(before > 0)
-        assertEquals(averaged.count("readings", "taken").toInt(), map, "readings of before the crash are in the map too")
+        assertEquals(
+            averaged.count("readings", "taken").toInt(),
+            map,
+            "readings of before the crash are in the map too",
+        )
     }
 
     @Test

@@ -99,6 +99,20 @@ class LogOnDiskTest {
     }
 
     @Test
+    fun whatADiskDoesNotTakeIsToldInLines() {
+        val disk = SmallDisk(5)
+        val log = LogOnDisk(path, disk)
+        listOf("one", "two", "three").forEach(log::line)
+        val missing = log.missing().orEmpty()
+        assertContains(missing, "$path lacks the last 2 lines")
+        disk.room = 4
+        assertContains(log.missing().orEmpty(), "lacks the last 1 line,")
+        disk.room = 100
+        assertNull(log.missing())
+        assertEquals("one\ntwo\nthree\n", disk.written.toString(Charsets.UTF_8))
+    }
+
+    @Test
     fun aLogHasItsFinalNameWhenItIsCompleteOnly() {
         val out = directory.resolve("out").createDirectories()
         val log = LogOnDisk.begin(out)

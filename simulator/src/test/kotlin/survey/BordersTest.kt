@@ -1,9 +1,9 @@
 package stillwater.survey
 
 import org.junit.jupiter.api.io.TempDir
+import stillwater.estimate.SensorKind
 import stillwater.io.LogChoice
 import stillwater.io.SurveyLog
-import stillwater.estimate.SensorKind
 import stillwater.model.Interval
 import stillwater.run.FilterKind
 import java.nio.file.Path
