@@ -141,6 +141,9 @@ public class Mission(
     /** What was left out of the readings since it began, or was taken up again, by reason. */
     public val readings: PlausibilityGate get() = survey.gate
 
+    /** Of these the map has so many from while the boat's place was in doubt: fixes were too old, or did not agree. */
+    public val doubtedReadings: Long get() = survey.doubted
+
     /** Time since the board said anything of the probe, or since the first step, s; NaN before. */
     public val probeSilence: Double get() = probe.silence(now)
 
@@ -224,6 +227,7 @@ public class Mission(
         now = time
         pose.advance(time, dt, drive)
         if (pose.track.isKnown) survey.pose(time, pose.track.x, pose.track.y, pose.track.deviation)
+        survey.isDoubted = pose.isDoubted
         port.hear(time)
         val ruling = assess()
         val before = state

@@ -131,6 +131,9 @@ internal class PoseInput(
         agreement = AGREEMENT
     }
 
+    /** Whether where the boat is believed to be is nothing to sail by: fixes are too old, or do not agree yet. */
+    val isDoubted: Boolean get() = !isBelieved || now - fixTime > oldestFix
+
     /** Fills in what [situation] has of the pose. */
     fun describe(situation: Situation) {
         situation.fixAge = if (isBelieved) now - fixTime else Double.POSITIVE_INFINITY

@@ -47,6 +47,13 @@ internal class Survey(
 
     val map: FieldMap get() = estimator.map
 
+    /** Whether the boat's place is in doubt now. */
+    var isDoubted = false
+
+    /** Readings that were taken while it was. */
+    var doubted = 0L
+        private set
+
     /** What the probe last said that was taken, sensor units; NaN before. */
     var lastValue = Double.NaN
         private set
@@ -92,6 +99,7 @@ internal class Survey(
 
     private fun accept(reading: Reading) {
         estimator.update(reading)
+        if (isDoubted) doubted++
         lastValue = reading.value
         if (map.grid.cellAt(reading.position) == watched) hasReading = true
         taken.add(reading)

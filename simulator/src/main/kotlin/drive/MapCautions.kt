@@ -25,15 +25,24 @@ internal object MapCautions {
     )
     private val THREE = SignificantDigits(3)
     private const val MOST_NAMED = 5
+    private const val MANY_DOUBTED = 0.1
 
     /** One line each; of [mission]'s map as it is now. */
     fun of(mission: Mission): List<String> = listOfNotNull(
         nothing(mission),
+        doubted(mission.doubtedReadings, mission.readings.passed),
         unexplained(mission.sensor),
         fewBounds(mission.spec.estimator, mission.map),
         "no cell has a reading".takeIf { visited(mission) == 0 },
         givenUp(mission),
     )
+
+    /** That the map has [doubted] of [taken] readings from places that the mission did not sail by; null for few. */
+    fun doubted(doubted: Long, taken: Long): String? {
+        if (doubted == 0L || doubted < MANY_DOUBTED * taken) return null
+        return "$doubted of ${counted(taken, "reading")} were taken while the boat's place was in doubt, because " +
+            "fixes were too old or did not agree: they may be in other cells than they are of"
+    }
 
     /** Whether [mission] did all it was to do, by its own word, and knows of no cell but that where the boat lay. */
     fun hasSurveyedNothing(mission: Mission): Boolean {

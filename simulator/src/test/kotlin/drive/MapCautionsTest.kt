@@ -11,6 +11,14 @@ class MapCautionsTest {
         MapCautions.unexplained(SensorBelief(isExplained, areCellsEven, isWaterSteady, emptyList()), ", as in a storm")
 
     @Test
+    fun manyReadingsAtPlacesInDoubtAreTold() {
+        assertContains(MapCautions.doubted(100, 1000).orEmpty(), "100 of 1000 readings were taken while")
+        // Until fixes have agreed, at the beginning, some always are.
+        assertNull(MapCautions.doubted(15, 1000))
+        assertNull(MapCautions.doubted(0, 0))
+    }
+
+    @Test
     fun whyNoSensorIsLearnedIsWhatTheReadingsShow() {
         val uneven = caution(isExplained = false, areCellsEven = false).orEmpty()
         assertContains(uneven, "nothing shows that the water changes at their borders and not within them")

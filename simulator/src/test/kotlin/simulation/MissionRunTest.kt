@@ -62,6 +62,18 @@ class MissionRunTest {
     }
 
     @Test
+    fun readingsAtPlacesThatTheMissionDoesNotSailByAreTold() {
+        val settings = WorldSettings(seed = 523, board = older, pose = PoseSpec(fixDeviation = 30.0))
+        val result = SmallMission.sail(SmallMission.pond("averaging"), settings)
+        val mission = result.run.mission
+        assertTrue(mission.doubtedReadings > mission.readings.passed / 2, "${mission.doubtedReadings}")
+        assertTrue(SimulationSummary(result, "mg/L").warnings.any { "place was in doubt" in it })
+        val usual = SmallMission.sail(SmallMission.pond("averaging"), WorldSettings(seed = 523, board = older))
+        assertTrue(usual.run.mission.doubtedReadings > 0, "until fixes have agreed")
+        assertTrue(SimulationSummary(usual, "mg/L").warnings.none { "place was in doubt" in it })
+    }
+
+    @Test
     fun everyReadingIsAccountedForOnABadLink() {
         val settings = WorldSettings(seed = 522, board = older, link = LinkSpec(loss = 1e-3, corruption = 1e-3))
         val result = SmallMission.sail(SmallMission.pond("bounded-extended"), settings)
