@@ -95,16 +95,16 @@ internal class Crossings {
      * speed. False where places are not known well enough to tell.
      */
     private fun time(seconds: Double, place: Place): Boolean {
-        val east = place.along - lastAlong
-        val north = place.across - lastAcross
+        val along = place.along - lastAlong
+        val across = place.across - lastAcross
         // A way that is long by the errors of its ends only would be taken for one that is known well.
-        val way = hypot(east, north) - REACH * place.deviation
+        val way = hypot(along, across) - REACH * place.deviation
         if (!(place.deviation * steps <= CLEAR * way)) return false
         from = Double.POSITIVE_INFINITY
         until = Double.NEGATIVE_INFINITY
         val elapsed = seconds - lastSeconds
-        cross(lastAlong, east, place.width, elapsed, place.deviation)
-        cross(lastAcross, north, place.height, elapsed, place.deviation)
+        cross(lastAlong, along, place.width, elapsed, place.deviation)
+        cross(lastAcross, across, place.height, elapsed, place.deviation)
         from = maxOf(from, lastSeconds)
         until = minOf(until, seconds)
         return from <= until

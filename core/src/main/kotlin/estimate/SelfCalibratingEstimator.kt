@@ -22,11 +22,12 @@ import kotlin.math.sqrt
  *
  * Assumes the field constant within a cell and in time, and that the interval between two readings in different cells
  * is spent in the second: sample often on a border. Where readings say how well their places are known, in
- * [Conditions.POSITION_DEVIATION], that is not assumed: those nearer to a border than it count for no cell. Between
- * cells that do not touch, or after leaving the grid or a reading without a value in another cell, the sensor's state
- * is taken as unknown. A reading farther than [FARTHEST] widths of the prior from its middle is not used and counts as
- * a conflict. Where no model explains the readings [isExplained] says so: bounds are then those of a
- * [BoundedExtendedFilter], which needs no model, and so are values if the nearest model's have run away from it.
+ * [Conditions.POSITION_DEVIATION], that is not assumed: those nearer to a border than it count for no cell, and where it is
+ * small against the boat's way from one reading to the next their places tell when it crossed. Between cells that do not
+ * touch, or after leaving the grid or a reading without a value in another cell, the sensor's state is taken as unknown. A
+ * reading farther than [FARTHEST] widths of the prior from its middle is not used and counts as a conflict. Where no model
+ * explains the readings [isExplained] says so: bounds are then those of a [BoundedExtendedFilter], which needs no model,
+ * and so are values if the nearest model's have run away from it.
  *
  * Source: own result, core/docs/SelfCalibratingEstimator.md; sums of innovations as in Schweppe 1965,
  * doi:10.1109/TIT.1965.1053737. The first [SelfCalibratingSettings.recalled] readings are kept and gone through again

@@ -50,10 +50,14 @@ internal class SensorLearner(settings: SelfCalibratingSettings, private val work
     /** Fits what is due, or a part of it. Answers whether another fit, of all readings, holds from now on. */
     fun learn(): Boolean = learn(work)
 
-    /** Fits to all there are, where all are kept and some came since the last fit. Answers whether that holds from now on. */
+    /**
+     * Completes the fit under way and fits to all there are, where all are kept and some came since the last fit. Answers
+     * whether another fit holds from now on.
+     */
     fun learnFromAll(): Boolean {
-        if (parts.isBusy) parts.go(Double.POSITIVE_INFINITY)
-        if (!tape.isComplete || tape.size == fitted) return false
+        val wasBusy = parts.isBusy
+        if (wasBusy) parts.go(Double.POSITIVE_INFINITY)
+        if (!tape.isComplete || tape.size == fitted) return wasBusy
         parts.begin { decide() }
         parts.go(Double.POSITIVE_INFINITY)
         return true

@@ -1,8 +1,8 @@
 package stillwater.estimate
 
-import kotlin.math.PI
 import kotlin.math.exp
 import kotlin.math.ln
+import kotlin.math.pow
 import kotlin.math.sqrt
 
 /**
@@ -22,12 +22,7 @@ internal class SlewFilter : ReadingPlayer {
     private var lastSeconds = Double.NaN
     private var lastElapsed = 0.0
 
-    /** Time since the last reading at which the boat came into the present cell, s; 0 from its first reading on. */
-    private var unread = 0.0
-
-    /** Mean of the logarithm of the time between two readings, s, and of how many. */
-    private var usualInterval = 0.0
-    private var intervals = 0
+    private val usualInterval = UsualInterval()
 
     /** Slot of the cell the boat is in; below 0 if it is in none. */
     var here: Int = LagBank.NONE
@@ -79,9 +74,7 @@ internal class SlewFilter : ReadingPlayer {
         freedomBefore = 0.0
         pooledMisfit = 0.0
         agreements = 0
-        usualInterval = 0.0
-        intervals = 0
-        unread = 0.0
+        usualInterval.reset()
     }
 
     override fun leave() {
@@ -93,18 +86,14 @@ internal class SlewFilter : ReadingPlayer {
     }
 
     override fun enter(slot: Int, from: Double, until: Double) {
-        val middle = (from + until) / 2
-        val elapsed = middle - lastSeconds
+        val elapsed = (from + until) / 2 - lastSeconds
         move(UP * STRIDE, elapsed)
         move(DOWN * STRIDE, -elapsed)
-        for (way in 0 until WAYS) {
-            // Up to the crossing it may have gone the other way.
-            val off = ways[way * STRIDE + R] * (until - from)
-            ways[way * STRIDE + SS] += off * off / 3
-        }
-        lastSeconds = middle
+        // Up to the crossing it may have gone the other way.
+        for (at in 0 until WAYS * STRIDE step STRIDE) ways[at + SS] += (ways[at + R] * (until - from)).pow(2) / 3
+        lastSeconds += elapsed
         lastElapsed += elapsed
-        unread = elapsed
+        usualInterval.wait(elapsed)
         settle()
         begin(slot)
     }
@@ -113,15 +102,10 @@ internal class SlewFilter : ReadingPlayer {
     override fun take(slot: Int, seconds: Double, value: Double) {
         var elapsed = 0.0
         if (here == LagBank.NONE) {
-            for (way in 0 until WAYS) {
-                val at = way * STRIDE
-                ways[at + S] = 0.0
+            for (at in 0 until WAYS * STRIDE step STRIDE) {
+                for (k in UNKNOWN) ways[at + k] = 0.0
                 ways[at + SS] = 1.0
-                ways[at + Q] = 0.0
                 ways[at + QQ] = 1.0
-                ways[at + SR] = 0.0
-                ways[at + SQ] = 0.0
-                ways[at + RQ] = 0.0
             }
             freedomBefore--
             begin(slot)
@@ -134,9 +118,7 @@ internal class SlewFilter : ReadingPlayer {
         }
         lastSeconds = seconds
         lastElapsed = elapsed
-        val interval = elapsed + unread
-        unread = 0.0
-        if (interval > 0) usualInterval += (ln(interval) - usualInterval) / ++intervals
+        usualInterval.take(elapsed)
         // Level ways first: they start where the moving ones were.
         for (way in 0..1) rest(LEVEL + way, way, elapsed, value)
         for (way in 0..1) {
@@ -307,11 +289,9 @@ internal class SlewFilter : ReadingPlayer {
         if (slot == here && isAtRest()) visits++
         if (slot == before) visits++
         val share = maxOf(1.0, visits) / information(slot) / noise
-        val step = maxOf(rate * exp(usualInterval), LEAST_STEP)
+        val step = maxOf(rate * usualInterval.seconds, LEAST_STEP)
         val early = maxOf(1.0, deviation / step) * noise * deviation / step / 12 * share * share
-        if (resolution == 0.0) return early
-        val before = maxOf(0.0, noise / (resolution * resolution) - 1.0 / 12)
-        return early + resolution * resolution / (2 * PI * PI) * exp(-4 * PI * PI * before)
+        return early + hiddenByRounding(noise, resolution)
     }
 
     /** Information on the truth of the cell with [slot], 0 if it was never reached. */
@@ -391,18 +371,18 @@ internal class SlewFilter : ReadingPlayer {
         private const val SCORE = 10
         private const val SUCCESSION = 11
         private const val INNOVATION = 12
+        private val UNKNOWN = intArrayOf(S, Q, SR, SQ, RQ)
 
-        /** Of a cell: truth, information, and how far its bounds are from the prior's ends. */
+        /**
+         * Of a cell: truth, information, how far its bounds are from the prior's ends, the probability of having come to rest in
+         * the last visit, where that was not beyond doubt, and the visits that its truth is of.
+         */
         private const val SLOT = 6
         private const val MEAN = 0
         private const val INFORMATION = 1
         private const val LOWER = 2
         private const val UPPER = 3
-
-        /** Probability of having come to rest in the last visit, where that was not beyond doubt. */
         private const val RESTING = 4
-
-        /** Visits that its truth is of. */
         private const val VISITS = 5
         private const val FIRST_SLOTS = 128
 

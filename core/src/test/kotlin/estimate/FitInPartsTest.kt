@@ -11,6 +11,8 @@ import kotlin.random.Random
 import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
+import kotlin.test.assertNotEquals
+import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
 class FitInPartsTest {
@@ -100,6 +102,39 @@ class FitInPartsTest {
         val atOnce = estimator(SelfCalibratingEstimator.AT_ONCE, recalled = 300).take(survey)
         assertEquals(6.0, inParts.timeConstant, 0.2)
         assertTrue(inParts.error(survey) < 1.1 * atOnce.error(survey) + 1e-4, "${inParts.error(survey)}")
+    }
+
+    @Test
+    fun atTheEndAFitOfAllReadingsMayBeAskedFor() {
+        val survey = Survey(grid, 5205)
+        // The last fit of its own is of 609 readings, and is under way in the one that learns in parts.
+        val atOnce = estimator(SelfCalibratingEstimator.AT_ONCE).take(survey, until = 650)
+        val inParts = estimator(1.0).take(survey, until = 650)
+        val before = atOnce.timeConstant
+        for (one in listOf(atOnce, inParts)) one.learnFromAll()
+        assertNotEquals(before, atOnce.timeConstant)
+        val apart = abs(ln(inParts.timeConstant / atOnce.timeConstant))
+        assertTrue(apart < 0.1 * atOnce.relativeUncertainty, "$apart")
+        val after = atOnce.timeConstant
+        atOnce.learnFromAll()
+        assertEquals(after, atOnce.timeConstant, "nothing came since")
+        // Not where readings came that are not kept.
+        val short = estimator(SelfCalibratingEstimator.AT_ONCE, recalled = 300).take(survey, until = 650)
+        val found = short.timeConstant
+        short.learnFromAll()
+        assertEquals(found, short.timeConstant)
+    }
+
+    @Test
+    fun theKnownRangeIsThatOfTheCellsAndNotCutToThePrior() {
+        val survey = Survey(grid, 5206)
+        val narrow = Interval(0.2, 0.8)
+        val estimator = SelfCalibratingEstimator(grid, narrow).take(survey)
+        assertTrue(survey.truths.min() < narrow.lower && survey.truths.max() > narrow.upper)
+        val known = checkNotNull(estimator.knownRange())
+        assertEquals(survey.truths.min(), known.lower, 0.01)
+        assertEquals(survey.truths.max(), known.upper, 0.01)
+        assertNull(SelfCalibratingEstimator(grid, narrow).knownRange(), "before there is a reading")
     }
 
     @Test

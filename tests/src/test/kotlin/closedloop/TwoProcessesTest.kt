@@ -160,7 +160,7 @@ class TwoProcessesTest {
                 assertContains("$drive", "before it was taken up again")
             }
             // The wall's clock went on by a fraction of what the boat's did.
-            Program(directory, "map", "out/mission.txt", "--numbers-only", "--quiet", "--out", "mapped").use { map ->
+            Program(directory, "map", "out/mission.txt", "--quiet", "--out", "mapped").use { map ->
                 assertEquals(0, map.end(), "$map")
             }
             Program(directory, "replay", "out/mission.txt", "--numbers-only", "--out", "again").use { replay ->
