@@ -171,10 +171,11 @@ internal class MapWarnings(private val map: SurveyMap) {
         }
         val bothSides = counts.both + counts.crossed
         if (bothSides < FEW_BOUNDED * counts.visited) {
+            val cells = "of ${counts.visited} visited cells"
+            val which = if (bothSides == 0) "none $cells" else "$bothSides $cells only"
             add(
-                "the bounded filter has bounds from both sides in $bothSides of ${counts.visited} visited cells " +
-                    "only, because ${few(counts)}; elsewhere it has none, or one, and then its value leans on the " +
-                    "range taken for the water",
+                "the bounded filter has bounds from both sides in $which, because ${few(counts)}; elsewhere it has " +
+                    "none, or one, and then its value leans on the range taken for the water",
             )
         }
     }
