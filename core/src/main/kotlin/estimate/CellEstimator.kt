@@ -128,7 +128,10 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         if (size > largest) largest = minOf(2 * size, Double.MAX_VALUE)
     }
 
-    /** Where the reading that is being taken is along the grid's first axis, m from its origin. */
+    /** How far the place of the reading that is being taken is from its cell's border, m. */
+    protected fun distanceToBorder(): Double = grid.distanceToBorder(placeX, placeY)
+
+    /** Where that reading is along the grid's first axis, m from its origin. */
     protected fun alongColumns(): Double = grid.alongColumns(placeX, placeY)
 
     /** Where it is along the second axis, m. */

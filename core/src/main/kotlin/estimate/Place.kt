@@ -1,8 +1,5 @@
 package stillwater.estimate
 
-import kotlin.math.abs
-import kotlin.math.round
-
 /**
  * Where a reading was taken, and how well that is known. One object for all readings in turn.
  *
@@ -21,22 +18,21 @@ internal class Place(val width: Double = 1.0, val height: Double = 1.0) {
     var deviation: Double = Double.NaN
         private set
 
+    /** Whether it is so near to a border that the reading may be of another cell. */
+    var isNearBorder: Boolean = false
+        private set
+
     /** Another reading's, of whose place nothing was said. */
-    fun forget() = set(Double.NaN, Double.NaN, Double.NaN)
+    fun forget() = set(Double.NaN, Double.NaN, Double.NaN, isNearBorder = false)
 
     /** Another reading's. */
-    fun set(along: Double, across: Double, deviation: Double) {
+    fun set(along: Double, across: Double, deviation: Double, isNearBorder: Boolean) {
         this.along = along
         this.across = across
         this.deviation = deviation
+        this.isNearBorder = isNearBorder
     }
 
     /** Whether anything was said of how well it is known. */
     val isKnown: Boolean get() = deviation >= 0
-
-    /** Whether it is so near to a border that the reading may be of another cell. */
-    val isNearBorder: Boolean
-        get() = isKnown && minOf(distance(along, width), distance(across, height)) < deviation
-
-    private fun distance(from: Double, size: Double) = (from / size).let { abs(it - round(it)) } * size
 }

@@ -34,6 +34,7 @@ internal class ReadingTape(capacity: Int, private val width: Double = 1.0, priva
     private var along = DoubleArray(0)
     private var across = DoubleArray(0)
     private var deviations = DoubleArray(0)
+    private var areNearBorder = BooleanArray(0)
 
     /** Whether a reading on the tape says how well its place is known. */
     var tellsOfPlaces: Boolean = false
@@ -61,7 +62,7 @@ internal class ReadingTape(capacity: Int, private val width: Double = 1.0, priva
 
     /** Sets [place] to where reading [i] was taken. */
     fun bring(i: Int, place: Place) {
-        if (tellsOfPlaces) place.set(along[i], across[i], deviations[i]) else place.forget()
+        if (tellsOfPlaces) place.set(along[i], across[i], deviations[i], areNearBorder[i]) else place.forget()
     }
 
     /** Mean time spent in a cell at a stretch among the first [count], s; 0 for none. */
@@ -85,15 +86,13 @@ internal class ReadingTape(capacity: Int, private val width: Double = 1.0, priva
         var sure = 0
         var stays = 0
         var enough = 0
-        val place = newPlace()
         for (i in 0 until among) {
             if (slots[i] == LagBank.NONE) continue
             if (i == 0 || slots[i] != slots[i - 1]) {
                 stays++
                 sure = 0
             }
-            bring(i, place)
-            if (!place.isNearBorder && ++sure == count) enough++
+            if (!(tellsOfPlaces && areNearBorder[i]) && ++sure == count) enough++
         }
         return if (stays == 0) 0.0 else enough.toDouble() / stays
     }
@@ -114,6 +113,7 @@ internal class ReadingTape(capacity: Int, private val width: Double = 1.0, priva
             along[size] = place?.along ?: Double.NaN
             across[size] = place?.across ?: Double.NaN
             deviations[size] = place?.deviation ?: Double.NaN
+            areNearBorder[size] = place?.isNearBorder == true
         }
         values[size++] = value
     }
@@ -123,6 +123,7 @@ internal class ReadingTape(capacity: Int, private val width: Double = 1.0, priva
         along = DoubleArray(slots.size)
         across = DoubleArray(slots.size)
         deviations = DoubleArray(slots.size)
+        areNearBorder = BooleanArray(slots.size)
         deviations.fill(Double.NaN, 0, size)
     }
 }

@@ -210,7 +210,8 @@ public class SelfCalibratingEstimator(
     private fun noticePlace(conditions: Conditions) {
         if (conditions === Conditions.NONE) return place.forget()
         val deviation = conditions[Conditions.POSITION_DEVIATION]
-        if (deviation >= 0) place.set(alongColumns(), alongRows(), deviation) else place.forget()
+        if (!(deviation >= 0)) return place.forget()
+        place.set(alongColumns(), alongRows(), deviation, isNearBorder = distanceToBorder() < deviation)
     }
 
     private fun writeAll() {

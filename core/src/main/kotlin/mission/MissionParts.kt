@@ -215,3 +215,6 @@ internal fun ways(spec: MissionSpec, water: WaterArea, closed: ClosedCells) = De
     closed,
     spec.home.position,
 )
+
+/** Readings that the map has: those taken since the mission began, or was taken up again, and those of before. */
+public val Mission.readingsTaken: Long get() = readingsBefore + readings.passed

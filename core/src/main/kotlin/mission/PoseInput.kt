@@ -132,11 +132,13 @@ internal class PoseInput(
     }
 
     /** Whether where the boat is believed to be is nothing to sail by: fixes are too old, or do not agree yet. */
-    val isDoubted: Boolean get() = !isBelieved || now - fixTime > oldestFix
+    val isDoubted: Boolean get() = fixAge > oldestFix
+
+    private val fixAge: Double get() = if (isBelieved) now - fixTime else Double.POSITIVE_INFINITY
 
     /** Fills in what [situation] has of the pose. */
     fun describe(situation: Situation) {
-        situation.fixAge = if (isBelieved) now - fixTime else Double.POSITIVE_INFINITY
+        situation.fixAge = fixAge
         situation.jumps = track.jumps
         situation.x = track.x
         situation.y = track.y

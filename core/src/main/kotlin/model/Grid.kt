@@ -86,10 +86,8 @@ public data class Grid(
      * border of its cell. NaN where a coordinate is. O(1), no allocation.
      */
     public fun distanceToBorder(x: Double, y: Double): Double {
-        val east = x - origin.x
-        val north = y - origin.y
-        val column = (cosine * east + sine * north) / cellWidth
-        val row = (cosine * north - sine * east) / cellHeight
+        val column = alongColumns(x, y) / cellWidth
+        val row = alongRows(x, y) / cellHeight
         return minOf(abs(column - round(column)) * cellWidth, abs(row - round(row)) * cellHeight)
     }
 

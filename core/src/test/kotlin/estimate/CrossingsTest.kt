@@ -24,7 +24,7 @@ class CrossingsTest {
     /** What a reading a second later counts for, in the cell of ([along], [across]) by its number in a row of cells. */
     private fun slot(along: Double, deviation: Double, across: Double = 5.0, elapsed: Double = 1.0): Int {
         seconds += elapsed
-        place.set(along, across, deviation)
+        place.set(along, across, deviation, isNearBorder = grid.distanceToBorder(along, across) < deviation)
         return crossings.slot(slotOf(along, across), seconds, place)
     }
 

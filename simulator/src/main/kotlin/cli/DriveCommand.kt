@@ -21,6 +21,7 @@ import stillwater.drive.Phone
 import stillwater.drive.PhoneChannel
 import stillwater.drive.PromptWire
 import stillwater.drive.Resumed
+import stillwater.drive.Resumption
 import stillwater.io.LogProblem
 import stillwater.io.MissionFile
 import stillwater.link.ReconnectingWire
@@ -33,6 +34,7 @@ import stillwater.mission.MissionLog
 import stillwater.mission.MissionSpec
 import stillwater.mission.RecoveredMission
 import stillwater.mission.StopReason
+import stillwater.mission.readingsTaken
 import stillwater.report.OutputDirectory
 import stillwater.report.counted
 import stillwater.run.withUnit
@@ -213,9 +215,7 @@ class DriveCommand : WorkCommand("drive") {
         val why = reason?.name?.lowercase() ?: "stopped before it began$still"
         val borders = if (mission.unplaced > 0) " (${mission.unplaced} at borders, of no cell)" else ""
         val quantity = mission.spec.probe.quantity.withUnit
-        val before = mission.readingsBefore
-        val resumed = if (before > 0) " ($before before it was taken up again)" else ""
-        val readings = "${counted(before + mission.readings.passed, "reading")} of $quantity$resumed$borders"
+        val readings = "${counted(mission.readingsTaken, "reading")} of $quantity${Resumption.of(mission)}$borders"
         tell("$why; $readings, ${mission.readings.leftOut} left out; log $log")
         if (reason != StopReason.COMPLETED || MapCautions.hasSurveyedNothing(mission)) throw ProgramResult(1)
     }

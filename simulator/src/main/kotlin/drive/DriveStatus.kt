@@ -5,6 +5,7 @@ import stillwater.control.Danger
 import stillwater.link.ReconnectingWire
 import stillwater.mission.Mission
 import stillwater.mission.MissionState
+import stillwater.mission.readingsTaken
 import stillwater.model.BoatTime
 import stillwater.report.SignificantDigits
 import stillwater.report.counted
@@ -81,8 +82,7 @@ internal class DriveStatus(
             // Early in the line: what does not fit on the terminal is cut off.
             silence(mission),
             mission.position?.let { "at %.1f, %.1f m".format(Locale.ROOT, it.x, it.y) } ?: "place unknown",
-            "$known of ${counted(map.grid.size, "cell")}, " +
-                counted(mission.readingsBefore + mission.readings.passed, "reading"),
+            "$known of ${counted(map.grid.size, "cell")}, ${counted(mission.readingsTaken, "reading")}",
             if (mission.board.volts.isNaN()) "" else "${VOLTS.format(mission.board.volts)} V",
             mission.run { givenUpCells.size + givenUpOffMap.size }
                 .let { if (it > 0) "${counted(it, "cell")} given up" else "" },

@@ -30,12 +30,15 @@ internal object MapCautions {
     /** One line each; of [mission]'s map as it is now. */
     fun of(mission: Mission): List<String> = listOfNotNull(
         nothing(mission),
-        doubted(mission.doubtedReadings, mission.readings.passed),
+        doubted(mission),
         unexplained(mission.sensor),
         fewBounds(mission.spec.estimator, mission.map),
         "no cell has a reading".takeIf { visited(mission) == 0 },
         givenUp(mission),
     )
+
+    /** As below, of [mission]'s readings. */
+    fun doubted(mission: Mission): String? = doubted(mission.doubtedReadings, mission.readings.passed)
 
     /** That the map has [doubted] of [taken] readings from places that the mission did not sail by; null for few. */
     fun doubted(doubted: Long, taken: Long): String? {

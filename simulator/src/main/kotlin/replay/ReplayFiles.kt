@@ -10,6 +10,8 @@ import kotlinx.serialization.json.put
 import kotlinx.serialization.json.putJsonObject
 import stillwater.drive.MapCautions
 import stillwater.drive.MissionMapFiles
+import stillwater.drive.Resumption
+import stillwater.mission.readingsTaken
 import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
 import stillwater.report.counted
@@ -65,7 +67,7 @@ internal class ReplayFiles(private val replayed: Replayed) {
             putJsonObject("board_lines_not_understood") { malformed().forEach { (name, count) -> put(name, count) } }
             val gate = replayed.mission.readings
             putJsonObject("readings") {
-                put("taken", replayed.mission.readingsBefore + gate.passed)
+                put("taken", replayed.mission.readingsTaken)
                 put("taken_before_it_was_taken_up_again", replayed.mission.readingsBefore)
                 put("taken_but_at_borders", replayed.mission.unplaced)
                 put("out_of_range", gate.outOfRange)
@@ -81,12 +83,6 @@ internal class ReplayFiles(private val replayed: Replayed) {
             put("warnings", JsonArray(warnings.map(::JsonPrimitive)))
         }
         return PRETTY.encodeToString(JsonObject.serializer(), json) + "\n"
-    }
-
-    private fun taken(): String {
-        val before = replayed.mission.readingsBefore
-        val all = "${before + replayed.mission.readings.passed} taken"
-        return if (before > 0) "$all ($before before it was taken up again)" else all
     }
 
     /** The summary for people, line by line. */
@@ -110,7 +106,9 @@ internal class ReplayFiles(private val replayed: Replayed) {
             "states: " +
                 decisions.secondsIn.entries.joinToString(", ") { "%s %.1f s".format(Locale.ROOT, it.key, it.value) } +
                 "; $changes, motors running in ${counted(decisions.driven, "step")}",
-            "readings: ${taken()}, ${gate.outOfRange} out of range, ${gate.lone} alone, " +
+            "readings: ${replayed.mission.readingsTaken} taken${Resumption.of(
+                replayed.mission,
+            )}, ${gate.outOfRange} out of range, ${gate.lone} alone, " +
                 "${gate.stuck} stuck, ${gate.waiting} waiting, " +
                 "${gate.withoutValueOrPlace} without a place; $fixes refused",
             replayed.asRecorded?.let(::compared),

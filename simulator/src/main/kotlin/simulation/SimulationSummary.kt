@@ -66,7 +66,7 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         }
         if (result.atCentres.cells == 0) add("no cell has a reading")
         MapCautions.givenUp(run.mission)?.let { add(it) }
-        run.mission.run { MapCautions.doubted(doubtedReadings, readings.passed) }?.let { add(it) }
+        MapCautions.doubted(run.mission)?.let { add(it) }
     }
 
     private val space get() = if (unit.isEmpty()) "" else " "

@@ -93,10 +93,10 @@ internal class MapFilters(
     val knownRange: Interval? get() = learned?.takeIf { learnsFromAll }?.knownRange()
 
     private companion object {
-        /** Readings at most that are gone through again each time the sensor is learned: a fraction of a second. */
+        /** A log of so many readings is learned from whole: a second or so. */
         const val MOST_RECALLED = 10_000
 
-        /** As many as there are: each reading may come after an interruption. */
+        /** All, where each may come after an interruption; of a longer log as many readings and interruptions from its start. */
         fun recalled(lag: LagFilterSettings, statistics: SurveyStatistics): Int {
             val all = 2 * minOf(statistics.readings, MOST_RECALLED.toLong()).toInt()
             return maxOf(all, lag.selfCalibrating.recalled)

@@ -9,6 +9,7 @@ import stillwater.mission.MissionLog
 import stillwater.mission.MissionSpec
 import stillwater.mission.MissionState
 import stillwater.mission.Wish
+import stillwater.mission.readingsTaken
 import stillwater.model.BoatTime
 import stillwater.model.Reading
 import java.time.Instant
@@ -123,7 +124,7 @@ internal class MissionRun(
     private fun counts(): ReadingCounts {
         val gate = mission.readings
         val waiting = gate.waiting.toLong()
-        val taken = mission.readingsBefore + gate.passed
+        val taken = mission.readingsTaken
         return ReadingCounts(
             taken + gate.leftOut + waiting,
             taken,
