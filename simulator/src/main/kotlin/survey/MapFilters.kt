@@ -48,7 +48,7 @@ internal class MapFilters(
         learned = estimators.values.firstNotNullOfOrNull(::learner)
         val isAsked = settings.correction == null && settings.filters.any { it.needsEvenCells }
         val needsOwn = learned == null && isAsked && statistics.readings <= MOST_JUDGED
-        val own = if (needsOwn) SelfCalibratingEstimator(grid, prior, learning) else null
+        val own = if (needsOwn) SelfCalibratingEstimator(grid, prior, lag.selfCalibrating) else null
         judge = learned ?: own
         running = (estimators.values - setOfNotNull(shared) + listOfNotNull(own)).toTypedArray()
     }
@@ -74,7 +74,7 @@ internal class MapFilters(
 
     /** There are no more readings: what is learned of the sensor is learned from all of them. */
     fun finish() {
-        for (estimator in running) learner(estimator)?.learnFromAll()
+        for (estimator in estimators.values) learner(estimator)?.learnFromAll()
     }
 
     /**
