@@ -51,9 +51,9 @@ class ChessboardTest {
             val ratio = share * ROWS
             val trial =
                 BlindTrial(Term(cause), cause.label, null, null, DoubleArray(ROWS), ratio, 1.0, 1, 0.0, state, ratio)
-            return BeyondWaves.of(trial, search).ratio == ratio
+            return BeyondWaves(search, state).of(trial).ratio == ratio
         }
-        for ((cause, least) in listOf(Cause.HYSTERESIS to 0.05, Cause.DEAD_TIME to 0.25)) {
+        for ((cause, least) in listOf(Cause.HYSTERESIS to 0.09, Cause.DEAD_TIME to 0.25)) {
             assertEquals(listOf(false, true), listOf(0.9, 1.1).map { kept(cause, it * least) }, "$cause")
         }
         assertTrue(kept(Cause.DRIFT, 1e-3))

@@ -52,6 +52,7 @@ internal class BlindRound(
      * responses are then begun far from what the wrong water makes of them.
      */
     private val isBlurred = !state.isResolved
+    private val beyond = BeyondWaves(search, state)
 
     /** What water that changes in time explains. It could imitate a drift: the two are held against each other. */
     val changing = maxOf(open.score - still.score, 0.0)
@@ -104,7 +105,7 @@ internal class BlindRound(
             // Responses are begun anew in blurred water, whatever their first steps gain, and some anywhere.
             val isAsked = (isBlurred && cause in BlindSearch.LINEAR) || cause in HIDDEN
             val settled = if (isAsked || trial in likely) settled(trial, other(trial)) else trial
-            val clear = if (isBlurred) BeyondWaves.of(settled, search) else settled
+            val clear = beyond.of(settled)
             val placed = if (mayBeOnArm(trial)) far(clear) else clear
             return if (isOfLag(placed) && !(isShapeOpen && placed.isLate)) doubted(placed) else placed.atMost(0.0)
         }
@@ -291,10 +292,7 @@ internal class BlindRound(
         loops.all(listOfNotNull(here, onStill, onQuiet)) { it.trials }
         val deficit = quiet?.let { state.score - it.score } ?: 0.0
         // What waves of the water that are missing do looks like another response: one counts with which none are.
-        val found = here.list.indices.mapTo(ArrayList()) { i ->
-            val isWaves = here.list[i].ofWater && (isBlurred || isMissing(here.list[i], here.trials[i]))
-            if (isWaves) here.trials[i].atMost(0.0) else here.trials[i]
-        }
+        val found = here.list.zip(here.trials, beyond::of).toMutableList()
         val tight = here.list.indices.filter { !here.list[it].isLoose }
         val begun = tight.map { i ->
             listOfNotNull(here to 0.0, onStill?.let { it to state.score - still.score })
@@ -325,11 +323,9 @@ internal class BlindRound(
 
     private fun refitted(begun: Begun): BlindTrial {
         val refitted = begun.looks.refitted(begun.index)
-        val isClear = !isBlurred || !begun.look.ofWater || refitted.state.isResolved ||
-            FinerWaves.isNone(refitted.state, search)
-        if (!isClear) return begun.trial.atMost(0.0)
-        val first = tries.settled(begun.look, refitted, maxOf(state.score, still.score))
-        if (isBlurred && isMissing(begun.look, first)) return first.atMost(0.0)
+        if (!beyond.isClear(begun.look, refitted.state)) return begun.trial.atMost(0.0)
+        val alone = tries.settled(begun.look, refitted, maxOf(state.score, still.score))
+        val first = beyond.of(begun.look, alone, refitted.state)
         if (first.pValue > settings.level) return first
         // The same noise may suit the model without it as well.
         val (onState, onStill) = likewise(refitted.state)
@@ -337,10 +333,6 @@ internal class BlindRound(
         val settled = tries.settled(begun.look, refitted, best)
         return if (still === state || !search.isStill(refitted.state)) settled else settled.onLess(best - onStill)
     }
-
-    /** Whether waves that the water is not given may look like [look] as much as [trial] says. */
-    private fun isMissing(look: BlindLook, trial: BlindTrial) =
-        look.ofWater && !look.isLoose && trial.ratio < BEYOND_MISSING
 
     /** The strongest of [looks] at which something is left for certain, by its place; null where nothing is. */
     val strongestLook: Int?
@@ -389,8 +381,5 @@ internal class BlindRound(
 
         /** Twice the gain in log-likelihood that water which changes must add to a drift or a jump to be kept beside it. */
         const val CHANGING_TOO = 10.0
-
-        /** The same that waves which are missing do not give a look at the response: they gave 30 and 36 (191070, 195170). */
-        const val BEYOND_MISSING = 45.0
     }
 }

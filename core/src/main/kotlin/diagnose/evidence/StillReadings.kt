@@ -125,10 +125,11 @@ internal class StillReadings(private val fit: ModelFit) {
             if (from > 0 && rows >= FEWEST) stretches += Stretch(values[from], rows, isAtEnd(from, from + rows))
             from += rows
         }
-        // What a model without an end foretells beside a longer stretch at the same end may be too low.
-        val ends = stretches.filter { it.isAtEnd }
+        // What a model without an end foretells may be too low beside a longer stretch at the same end, or two others.
+        val ends = stretches.filter { it.isAtEnd }.groupBy { it.value }
         return stretches.map { one ->
-            val isLike = ends.any { it.value == one.value && it.rows >= one.rows }
+            val like = ends[one.value].orEmpty()
+            val isLike = like.size >= OTHERS || like.any { it.rows >= one.rows }
             if (isLike) Stretch(one.value, one.rows, true) else one
         }
     }
@@ -149,6 +150,9 @@ internal class StillReadings(private val fit: ModelFit) {
     private companion object {
         /** Rows; fewer are no stretch. */
         const val FEWEST = 5
+
+        /** Stretches at an end by which a longer one on the same reading is there, too: what hangs does so anywhere. */
+        const val OTHERS = 2
 
         /** Readings that stand still for two rows or more by which it is told how often they go on. */
         const val MANY = 30

@@ -29,12 +29,18 @@ internal object TooLittle {
             "known, so that no cause can be told from it; it is needed from before each move on"
     }
 
-    /** Why [series], whose readings never change beside a reference, cannot show anything; null where they do. */
+    /**
+     * Why [series], which has a reference, cannot show anything: its readings never change, or are the reference's own. Null
+     * where it may.
+     */
     fun still(series: MeasuredSeries): String? {
         val truth = series.reference ?: return null
         val readings = series.shown(series.values)
         return when {
-            readings.size < FEWEST_ROWS || !isFlat(readings) -> null
+            readings.size < FEWEST_ROWS -> null
+            series.shown(truth).contentEquals(readings) ->
+                "the reference has the readings' own number in every row: it is the same column, and no other instrument's"
+            !isFlat(readings) -> null
             isFlat(truth) -> "neither the readings nor the truth ever change"
             else ->
                 "the readings never change, though the reference does: the sensor or the logger hung, or what the " +

@@ -1,6 +1,7 @@
 package stillwater.diagnose.reference
 
 import stillwater.diagnose.evidence.FitReport
+import stillwater.diagnose.response.Resolution
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ReferenceGaps
 import stillwater.diagnose.response.ResponseModel
@@ -15,7 +16,7 @@ import kotlin.math.sqrt
  */
 internal class CoarseTruth(private val base: ModelFit, private val last: ModelFit, private val report: FitReport) {
     private val series = last.model.series
-    private val step = series.written.reference?.let(Scales::resolution) ?: 0.0
+    private val step = series.written.reference?.let(Resolution::of) ?: 0.0
 
     /**
      * What the reference's rounding makes of the readings, sensor units: evened out by the lag, unless the truth stays on each of

@@ -14,6 +14,7 @@ import stillwater.diagnose.evidence.Trial
 import stillwater.diagnose.evidence.allOrEach
 import stillwater.diagnose.evidence.without
 import stillwater.diagnose.noise.CorrelatedNoise
+import stillwater.diagnose.response.Resolution
 import stillwater.diagnose.response.FinerTruth
 import stillwater.diagnose.response.Fitting
 import stillwater.diagnose.response.ModelFit
@@ -75,7 +76,7 @@ internal class ReferenceDiagnosis(
      */
     private fun unrounded(first: Weighing): Weighing {
         val reference = checkNotNull(series.reference)
-        val step = Scales.resolution(reference)
+        val step = Resolution.of(reference)
         val shown = step / sqrt(12.0) * abs(first.last.numbers[ResponseModel.GAIN])
         if (series.isSparse || !(shown > NOISY * sqrt(first.last.variance))) return first
         val fits = setOf(first.base, first.last)

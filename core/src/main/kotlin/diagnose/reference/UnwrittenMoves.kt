@@ -7,6 +7,7 @@ import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
 import stillwater.diagnose.algebra.squares
 import stillwater.diagnose.evidence.TooLittle
+import stillwater.diagnose.response.Resolution
 import stillwater.diagnose.response.Scales
 import stillwater.diagnose.three
 import stillwater.estimate.ReferenceLearner
@@ -32,7 +33,7 @@ internal class UnwrittenMoves(
 ) {
     private val track = TrackSeries(series.times, series.x, series.y, series.values).withGaps(isGap)
     private val isRead = series.readRows()
-    private val wild = UnusableReadings.of(track, Scales.resolution(series.shown(series.values))).wild
+    private val wild = UnusableReadings.of(track, Resolution.of(series.shown(series.values))).wild
     private val learner = ReferenceLearner(
         track,
         checkNotNull(series.reference),

@@ -4,7 +4,6 @@ import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.median
 import stillwater.diagnose.noise.CorrelatedNoise
 import stillwater.diagnose.noise.Shocks
-import kotlin.math.abs
 import kotlin.math.ln
 
 /** What is not known of the truth where a sensor is that is not where the boat was, nor will be. */
@@ -115,7 +114,7 @@ internal class Scales private constructor(
     val way: WayTimes by lazy { like?.way?.takeIf { between == null } ?: WayTimes(series) }
 
     /** Finest step between different values, sensor units; 0 where there is none. */
-    val resolution: Double = like?.resolution ?: resolution(series.shown(series.values))
+    val resolution: Double = like?.resolution ?: Resolution.of(series.shown(series.values))
 
     /** From the lowest to the highest reading, sensor units. */
     val range: Double =
@@ -133,25 +132,6 @@ internal class Scales private constructor(
             val standing = STANDING * speeds.sortedArray().let { it[(FAST * (it.size - 1)).toInt()] }
             val usual = median(speeds)
             return if (usual < standing) median(speeds.filter { it >= standing }.toDoubleArray()) else usual
-        }
-
-        /** Part of a step by which the mean of all differs from the smallest for arithmetic alone. */
-        private const val SAME = 1e-6
-
-        /**
-         * The largest step of which all differences of [values] are multiples, or 0; to what the log's own digits leave of
-         * it. From the lowest to the highest value these say it far better than between two: 0.0962 written as 0.096 and 0.097.
-         */
-        fun resolution(values: DoubleArray): Double {
-            val distinct = values.toSet().sorted()
-            if (distinct.size < 3) return 0.0
-            val steps = DoubleArray(distinct.size - 1) { distinct[it + 1] - distinct[it] }
-            val smallest = steps.filter { it > 1e-12 * (abs(distinct.last()) + abs(distinct.first())) }.minOrNull()
-                ?: return 0.0
-            val fits = steps.count { abs(it / smallest - Math.rint(it / smallest)) < 0.02 }
-            if (fits < 0.99 * steps.size) return 0.0
-            val mean = (distinct.last() - distinct.first()) / steps.sumOf { Math.rint(it / smallest) }
-            return if (abs(mean - smallest) < SAME * smallest) smallest else mean
         }
     }
 }

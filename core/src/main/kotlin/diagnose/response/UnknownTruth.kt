@@ -240,7 +240,7 @@ internal class UnknownTruth private constructor(
 
         /** What slow water moves by where it is rounded, which stands still in most rows; 0 where a few levels are all. */
         private fun rounding(truth: DoubleArray): Double =
-            Scales.resolution(truth).takeIf { truth.max() - truth.min() > LEVELS * it } ?: 0.0
+            Resolution.of(truth).takeIf { truth.max() - truth.min() > LEVELS * it } ?: 0.0
 
         private fun most(errors: DoubleArray, i: Int, reach: Int): Double {
             var most = 0.0

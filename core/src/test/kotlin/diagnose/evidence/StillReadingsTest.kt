@@ -118,13 +118,27 @@ class StillReadingsTest {
         assertEquals(1.0, StillReadings(fit(ended)).atEnd)
     }
 
-    /** The true model, without its end, of readings [values]. */
-    private fun fit(values: DoubleArray): ModelFit {
+    /** Water that a model has to guess may be too low beside the longest of several stretches at an end. */
+    @Test
+    fun theLongestOfSeveralStretchesAtAnEndIsThereToo() {
+        val ended = normal().map { minOf(it, 6.2) }.toDoubleArray()
+        val from = ended.indices.filter { ended[it] == 6.2 && ended[it - 1] != 6.2 }
+        val longest = from.map { at -> at until (at until n).first { ended[it] != 6.2 } }.maxBy { it.count() }
+        assertTrue(from.size > 2, "$from")
+        val still = StillReadings(fit(ended, low = longest))
+        assertNull(still.words(1e-3))
+        assertEquals(SensorStage.Range(upper = 6.2), still.range(1e-3))
+        val once = DoubleArray(n) { if (ended[it] == 6.2 && it !in longest) 6.2 - 1e-3 * (it % 3) else ended[it] }
+        assertNotNull(StillReadings(fit(once, low = longest)).words(1e-3))
+    }
+
+    /** The true model, without its end, of readings [values]; its water is a unit too low in rows [low]. */
+    private fun fit(values: DoubleArray, low: IntRange = IntRange.EMPTY): ModelFit {
         val series = MeasuredSeries(DoubleArray(n) { it.toDouble() }, DoubleArray(n), DoubleArray(n), values, truth)
         val model = ResponseModel(series, emptyList(), Steps.HELD, Scales(series))
         val numbers = doubleArrayOf(8.0, 1.0, 0.0, 0.0)
         val shown = DoubleArray(n).also { model.predict(numbers, it) }
-        val left = DoubleArray(n) { values[it] - minOf(shown[it], 6.2) }
+        val left = DoubleArray(n) { values[it] - minOf(shown[it], 6.2) + if (it in low) 1.0 else 0.0 }
         val noise = CorrelatedNoise(series.times, 0.0, 1.0, BooleanArray(n) { true })
         return ModelFit(model, numbers, BooleanArray(4) { true }, noise, left, left, 0.0)
     }
@@ -136,6 +150,12 @@ class StillReadingsTest {
         assertEquals(emptyList(), found.spikes)
         assertEquals(emptyList(), found.warnings)
         assertEquals(emptyList(), found.baseline.parameters)
+    }
+
+    @Test
+    fun readingsThatAreTheReferenceShowNothing() {
+        val found = diagnosed(truth.copyOf())
+        assertContains(assertIs<Verdict.InsufficientData>(found.verdict).why, "the same column")
     }
 
     @Test
