@@ -83,13 +83,19 @@ internal class FieldMotion(
         return p
     }
 
-    /** The transition over [dt] s, [rising] or not. */
-    fun over(dt: Double, rising: Boolean): Transition {
-        val key = 2 * Math.round(dt / usual * FINENESS) + if (rising) 1 else 0
-        return known.getOrPut(key) { made(Math.round(dt / usual * FINENESS) / FINENESS * usual, rising) }
+    /**
+     * The transition over [dt] s while the lags rise with the probability [rising], 0..1, to the nearest of [LEVELS]
+     * steps: their rates 1/τ are at the mean.
+     */
+    fun over(dt: Double, rising: Double): Transition {
+        val level = Math.round(rising * LEVELS)
+        val key = (LEVELS + 1) * Math.round(dt / usual * FINENESS) + level
+        return known.getOrPut(key) {
+            made(Math.round(dt / usual * FINENESS) / FINENESS * usual, level / LEVELS.toDouble())
+        }
     }
 
-    private fun made(dt: Double, rising: Boolean): Transition {
+    private fun made(dt: Double, rising: Double): Transition {
         val pieces = ceil(dt / shortest * PIECES).toInt().coerceIn(1, MOST_PIECES)
         val piece = short(dt / pieces, rising)
         var whole = piece
@@ -113,7 +119,7 @@ internal class FieldMotion(
     }
 
     /** One step over which the field runs about straight: its own states exactly, the lags by [LagWeights]. */
-    private fun short(dt: Double, rising: Boolean): Transition {
+    private fun short(dt: Double, rising: Double): Transition {
         val n = along.states
         val field = fieldMove(dt)
         val move = DoubleArray(size * size)
@@ -124,7 +130,7 @@ internal class FieldMotion(
         }
         val weights = LagWeights()
         for (k in lags.indices) {
-            weights.set(if (rising) lags[k].rising else lags[k].falling, dt)
+            weights.set(lags[k].between(rising), dt)
             val row = n + k
             val input = if (k == 0) 0 else row - 1
             // s ← keep s + before u + now u′, with u′ the input's own next value.
@@ -213,6 +219,9 @@ internal class FieldMotion(
 
     private companion object {
         const val FINENESS = 1000.0
+
+        /** Finer steps of a probability change no rate by more than a 32nd of what rising and falling differ by. */
+        const val LEVELS = 16L
         const val PIECES = 2.0
         const val MOST_PIECES = 40
         const val UNSETTLED = 0.05

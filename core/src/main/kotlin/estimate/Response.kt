@@ -15,6 +15,13 @@ public data class ResponseLag(val rising: Double, val falling: Double = rising) 
         require(rising > 0 && rising.isFinite()) { "rising ($rising s) must be above 0 and finite" }
         require(falling > 0 && falling.isFinite()) { "falling ($falling s) must be above 0 and finite" }
     }
+
+    /** The time constant, s, whose rate is the mean of both where the sensor rises with the probability [rises], 0..1. */
+    internal fun between(rises: Double): Double = when (rises) {
+        1.0 -> rising
+        0.0 -> falling
+        else -> 1 / (rises / rising + (1 - rises) / falling)
+    }
 }
 
 /**

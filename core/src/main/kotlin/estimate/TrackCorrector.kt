@@ -1,6 +1,7 @@
 package stillwater.estimate
 
 import stillwater.sensor.SensorStage
+import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.hypot
 import kotlin.math.ln
@@ -178,6 +179,7 @@ public class TrackCorrector(
         val stretch = stretch(rows, part.timed, part.sides)
         val mean = DoubleArray(stretch.size)
         val variance = DoubleArray(stretch.size)
+        tellSides(stretch, part.response, part.along, part.timed.medianStep)
         val agitation = agitation(stretch, part.response, part.along, part.timed.medianStep)
         smoother(stretch, part.response, part.along, agitation, part.timed.medianStep).smooth(mean, variance)
         for (row in from until to) {
@@ -225,6 +227,22 @@ public class TrackCorrector(
         return factor
     }
 
+    /**
+     * Whether a lag with two time constants rises, from water and lag as smoothed with what was thought of it before:
+     * readings that are near to each other tell it only where they have hardly any noise.
+     */
+    private fun tellSides(stretch: Stretch, response: Response, along: AlongTrack, step: Double) {
+        if (response.slewRate.isFinite() || response.lags.all { it.rising == it.falling }) return
+        val calm = DoubleArray(stretch.size) { 1.0 }
+        val mean = DoubleArray(stretch.size)
+        val variance = DoubleArray(stretch.size)
+        repeat(MOST_ROUNDS) {
+            val before = stretch.rises.copyOf()
+            smoother(stretch, response, along, calm, step).smooth(mean, variance)
+            if (stretch.rises.indices.all { abs(stretch.rises[it] - before[it]) < SAME_SIDES }) return
+        }
+    }
+
     /** The water's liveliness under [response], by the density of the readings in the longest piece. */
     private fun fitted(response: Response): AlongTrack {
         var sample = 0..0
@@ -249,10 +267,16 @@ public class TrackCorrector(
         }
         val start =
             doubleArrayOf(ln(spread), -ln(RATE_STEPS * step), maxOf(least, ln(spread * FIRST_NOISE)))
-        return Smoothness.entries.map { smoothness ->
+
+        fun likeliest() = Smoothness.entries.map { smoothness ->
             val best = Search.simplex(start, doubleArrayOf(0.7, 1.0, 1.0), EVALUATIONS, CLOSE) { total(it, smoothness) }
             at(best, smoothness) to total(best, smoothness)
         }.maxBy { it.second }.first
+        val first = likeliest()
+        val before = stretch.rises.copyOf()
+        tellSides(stretch, response, first, step)
+        // Sides that are wrong look like noise, or like lively water.
+        return if (stretch.rises.contentEquals(before)) first else likeliest()
     }
 
     /**
@@ -284,6 +308,12 @@ public class TrackCorrector(
         const val SMALLEST_NOISE = 1e-5
         const val LEAST = 1e-12
         const val ADAPTATIONS = 2
+
+        /** Sides settle in three to five rounds; the noisier the readings, the later. */
+        const val MOST_ROUNDS = 8
+
+        /** A probability that changes by less changes no interval that is written. */
+        const val SAME_SIDES = 0.05
         const val WINDOW = 30
         const val PRIOR = 60.0
 

@@ -4,6 +4,7 @@ import stillwater.sensor.SensorStage
 import kotlin.math.PI
 import kotlin.math.hypot
 import kotlin.math.ln
+import kotlin.math.sqrt
 
 /**
  * One stretch of readings without gaps, for [TrackSmoother].
@@ -24,6 +25,12 @@ internal class Stretch(
 ) {
     /** Readings that are left out as outliers, length n. Modified. */
     val outlying = BooleanArray(times.size)
+
+    /**
+     * How likely it is, 0..1, that the lags rise on the way to where reading k is seen, at 2k, and to where the field is
+     * wanted, at 2k + 1; length 2n. By [rising] until the smoother knows better. Modified.
+     */
+    val rises = DoubleArray(2 * times.size) { if (rising[it / 2]) 1.0 else 0.0 }
 
     val size: Int get() = times.size
 }
@@ -59,6 +66,8 @@ internal class TrackSmoother(
     private val logDensities = DoubleArray(stretch.size)
     private val oneSided = OneSided()
 
+    private val lead = LagLead.of(response, along.states, size)
+
     /** Squared surprise of each reading, about 1 where the water is as lively as is thought. */
     val surprises: DoubleArray = DoubleArray(stretch.size)
 
@@ -83,12 +92,14 @@ internal class TrackSmoother(
     }
 
     /** What the backward pass needs of each event. */
-    private class Tape(events: Int, size: Int) {
+    private class Tape(events: Int, size: Int, lead: LagLead?) {
         val moves = arrayOfNulls<DoubleArray>(events)
         val gains = DoubleArray(events * size)
         val seen = IntArray(events)
         val rows = DoubleArray(events * size)
         val means = DoubleArray(events)
+        val leads = DoubleArray(if (lead == null) 0 else events)
+        val leadRows = DoubleArray(if (lead == null) 0 else events * size)
     }
 
     private fun forward(tape: Tape?) {
@@ -99,12 +110,16 @@ internal class TrackSmoother(
             val event = order[i]
             val next = eventTime(event)
             if (next > time) {
-                val transition = motion.over(next - time, stretch.rising[event / 2])
+                val transition = motion.over(next - time, stretch.rises[event])
                 predict(transition, agitation[event / 2])
                 tape?.moves?.set(i, transition.move)
                 time = next
             }
             if (event % 2 == 0) see(event / 2, tape, i) else note(tape, i)
+            if (tape != null && lead != null) {
+                tape.leads[i] = lead.mean(x)
+                lead.covariances(p, tape.leadRows, i * size)
+            }
         }
     }
 
@@ -212,29 +227,60 @@ internal class TrackSmoother(
         for (j in 0 until size) tape.rows[event * size + j] = p[j]
     }
 
-    /** Mean and variance of the field at each reading's time and place, into [mean] and [variance]. Modified. */
+    /**
+     * Mean and variance of the field at each reading's time and place, into [mean] and [variance]. Modified, as is
+     * [Stretch.rises] where the lags rise and fall unlike.
+     */
     fun smooth(mean: DoubleArray, variance: DoubleArray) {
-        val tape = Tape(order.size, size)
+        val tape = Tape(order.size, size, lead)
         forward(tape)
+        val leads = arrayOfNulls<Smoothed>(tape.leads.size)
         val lambda = DoubleArray(size)
         val big = DoubleArray(size * size)
         val half = DoubleArray(size * size)
         for (i in order.indices.reversed()) {
             val event = order[i]
+            if (lead != null) {
+                val spread = lead.variance(tape.leadRows, i * size)
+                leads[i] = given(tape.leads[i], spread, tape.leadRows, i * size, lambda, big)
+            }
             if (event % 2 == 1) {
-                var m = tape.means[i]
-                var v = tape.rows[i * size]
-                for (a in 0 until size) {
-                    m -= tape.rows[i * size + a] * lambda[a]
-                    for (b in 0 until size) v -= tape.rows[i * size + a] * big[a * size + b] * tape.rows[i * size + b]
-                }
-                mean[event / 2] = m
-                variance[event / 2] = maxOf(v, 0.0)
+                val field = given(tape.means[i], tape.rows[i * size], tape.rows, i * size, lambda, big)
+                mean[event / 2] = field.mean
+                variance[event / 2] = field.variance
             } else if (!innovations[event / 2].isNaN()) {
                 forget(tape, i, event / 2, lambda, big)
             }
             tape.moves[i]?.let { back(it, lambda, big, half) }
         }
+        if (lead == null) return
+        for (i in 1 until leads.size) {
+            stretch.rises[order[i]] = (leads[i - 1]!!.chanceAbove + leads[i]!!.chanceAbove) / 2
+        }
+    }
+
+    private class Smoothed(val mean: Double, val variance: Double) {
+        /** Probability of more than 0. */
+        val chanceAbove: Double
+            get() = TruncatedNormal.cumulative(mean / sqrt(variance).coerceAtLeast(Double.MIN_VALUE))
+    }
+
+    /** x − r λ and v − r Λ rᵀ, of what had the mean [x], the variance [v] and the covariances r with all states. */
+    private fun given(
+        x: Double,
+        v: Double,
+        rows: DoubleArray,
+        from: Int,
+        lambda: DoubleArray,
+        big: DoubleArray,
+    ): Smoothed {
+        var m = x
+        var left = v
+        for (a in 0 until size) {
+            m -= rows[from + a] * lambda[a]
+            for (b in 0 until size) left -= rows[from + a] * big[a * size + b] * rows[from + b]
+        }
+        return Smoothed(m, maxOf(left, 0.0))
     }
 
     /** λ ← Cᵀλ − h v/S, Λ ← CᵀΛC + h hᵀ/S, with C = I − K hᵀ. */
