@@ -234,7 +234,7 @@ internal class TrackSmoother(
     fun smooth(mean: DoubleArray, variance: DoubleArray) {
         val tape = Tape(order.size, size, lead)
         forward(tape)
-        val leads = arrayOfNulls<Smoothed>(tape.leads.size)
+        val rising = DoubleArray(tape.leads.size)
         val lambda = DoubleArray(size)
         val big = DoubleArray(size * size)
         val half = DoubleArray(size * size)
@@ -242,7 +242,7 @@ internal class TrackSmoother(
             val event = order[i]
             if (lead != null) {
                 val spread = lead.variance(tape.leadRows, i * size)
-                leads[i] = given(tape.leads[i], spread, tape.leadRows, i * size, lambda, big)
+                rising[i] = given(tape.leads[i], spread, tape.leadRows, i * size, lambda, big).chanceAbove
             }
             if (event % 2 == 1) {
                 val field = given(tape.means[i], tape.rows[i * size], tape.rows, i * size, lambda, big)
@@ -254,9 +254,7 @@ internal class TrackSmoother(
             tape.moves[i]?.let { back(it, lambda, big, half) }
         }
         if (lead == null) return
-        for (i in 1 until leads.size) {
-            stretch.rises[order[i]] = (leads[i - 1]!!.chanceAbove + leads[i]!!.chanceAbove) / 2
-        }
+        for (i in 1 until rising.size) stretch.rises[order[i]] = (rising[i - 1] + rising[i]) / 2
     }
 
     private class Smoothed(val mean: Double, val variance: Double) {

@@ -1,9 +1,9 @@
 package stillwater.diagnose.reference
 
 import stillwater.diagnose.evidence.FitReport
-import stillwater.diagnose.response.Resolution
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ReferenceGaps
+import stillwater.diagnose.response.Resolution
 import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Scales
 import stillwater.diagnose.three

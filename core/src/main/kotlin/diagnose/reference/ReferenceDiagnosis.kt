@@ -14,13 +14,13 @@ import stillwater.diagnose.evidence.Trial
 import stillwater.diagnose.evidence.allOrEach
 import stillwater.diagnose.evidence.without
 import stillwater.diagnose.noise.CorrelatedNoise
-import stillwater.diagnose.response.Resolution
 import stillwater.diagnose.response.FinerTruth
 import stillwater.diagnose.response.Fitting
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ReferenceGaps
 import stillwater.diagnose.response.ReferenceLead
 import stillwater.diagnose.response.ReferenceNoise
+import stillwater.diagnose.response.Resolution
 import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Scales
 import stillwater.diagnose.response.Steps

@@ -53,8 +53,8 @@ internal object Resolution {
         if (distinct.size < LEAST_VALUES || smallest < (LEAST_UNITS - 1) * unit) return 0.0
         val first = gaps.filter { it < smallest + 2.5 * unit }.average()
         if (first < LEAST_UNITS * unit) return 0.0
-        var count = 0.0
-        val counts = DoubleArray(distinct.size) { i -> if (i > 0) count += round(gaps[i - 1] / first); count }
+        val counts = DoubleArray(distinct.size)
+        for (i in gaps.indices) counts[i + 1] = counts[i] + round(gaps[i] / first)
         val middle = counts.average()
         val level = distinct.average()
         val step = distinct.indices.sumOf { (counts[it] - middle) * (distinct[it] - level) } /

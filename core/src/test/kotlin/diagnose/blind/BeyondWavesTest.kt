@@ -74,13 +74,13 @@ class BeyondWavesTest {
         val value = BlindLook("the value", emptyList()) { emptyList() }
         val heading = BlindLook("the heading", emptyList(), ofBoat = true)
         val trial = BlindTrial(null, "", null, null, DoubleArray(ROWS), 0.08 * ROWS, 1.0, 1, 0.0)
-        fun isKept(look: BlindLook, with: BlindState) = BeyondWaves(search, coarse).of(look, trial, with) === trial
-        assertEquals(listOf(false, false, true), listOf(ring, value, heading).map { isKept(it, coarse) })
-        assertEquals(listOf(true, true, true), listOf(ring, value, heading).map { isKept(it, fine) })
-        assertEquals(listOf(false, false, true), listOf(ring, value, heading).map { look ->
-            BeyondWaves(search, coarse).of(look, trial) === trial
-        })
-        assertTrue(listOf(ring, value, heading).all { BeyondWaves(search, fine).of(it, trial) === trial })
+        val looks = listOf(ring, value, heading)
+        val onCoarse = BeyondWaves(search, coarse)
+        val onFine = BeyondWaves(search, fine)
+        assertEquals(listOf(false, false, true), looks.map { onCoarse.of(it, trial, coarse) === trial })
+        assertEquals(listOf(true, true, true), looks.map { onCoarse.of(it, trial, fine) === trial })
+        assertEquals(listOf(false, false, true), looks.map { onCoarse.of(it, trial) === trial })
+        assertEquals(listOf(true, true, true), looks.map { onFine.of(it, trial) === trial })
     }
 
     private companion object {
