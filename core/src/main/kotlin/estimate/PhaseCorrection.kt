@@ -5,7 +5,6 @@ import kotlin.math.atan
 import kotlin.math.atan2
 import kotlin.math.cos
 import kotlin.math.exp
-import kotlin.math.ln
 import kotlin.math.sin
 import kotlin.math.sqrt
 
@@ -14,7 +13,7 @@ import kotlin.math.sqrt
  * the response took, and keeps its amplitude. So no noise is amplified, nothing is smoothed, and the readings' spectrum
  * is the same whatever the response: passes in different directions can be compared for any response on equal terms.
  *
- * The readings are resampled to even steps of the series' median first. See core/docs/TrackCorrection.md, (1) to (3).
+ * The readings are resampled to even steps of the series' median first, as [EvenPoints] are. See core/docs/TrackCorrection.md, (1) to (3).
  *
  * @param series the readings. Retained.
  */
@@ -22,8 +21,12 @@ internal class PhaseCorrection(private val series: TrackSeries) {
     /** Time step, s. */
     val step: Double = series.medianStep
 
-    /** One stretch without gaps: its place in the resampled series, and where in it readings rise. */
-    private class Stretch(val begin: Int, val size: Int) {
+    /**
+     * A stretch whose short gaps are bridged: the readings at even steps, sensor units, and where each is in the
+     * resampled series, -1 in a bridged gap.
+     */
+    private class Stretch(val readings: DoubleArray, val at: IntArray) {
+        val size get() = at.size
         val fourier = Fourier(maxOf(2, Integer.highestOneBit(maxOf(1, size * 2 - 1)) * 2))
         val re = DoubleArray(fourier.size)
         val im = DoubleArray(fourier.size)
@@ -41,7 +44,7 @@ internal class PhaseCorrection(private val series: TrackSeries) {
     val xs: DoubleArray
     val ys: DoubleArray
 
-    /** First index of the stretch that a point is in. */
+    /** First index of the stretch without gaps that a point is in. */
     val first: IntArray
 
     /** Logarithm of the boat's speed over the reference speed; 0 where unknown. */
@@ -54,7 +57,6 @@ internal class PhaseCorrection(private val series: TrackSeries) {
     }
 
     private val stretches: List<Stretch>
-    private val values: DoubleArray
 
     /** Whether the boat's speed is known, and that it changed. */
     val hasSpeeds: Boolean get() = series.hasSpeeds
@@ -66,40 +68,13 @@ internal class PhaseCorrection(private val series: TrackSeries) {
     val size: Int get() = times.size
 
     init {
-        val starts = (0 until series.size).filter { it == 0 || series.isAfterGap(it) }
-        val counts = starts.indices.map { k ->
-            val last = (starts.getOrNull(k + 1) ?: series.size) - 1
-            ((series.times[last] - series.times[starts[k]]) / step).toInt() + 1
-        }
-        val total = counts.sum()
-        times = DoubleArray(total)
-        xs = DoubleArray(total)
-        ys = DoubleArray(total)
-        values = DoubleArray(total)
-        logSpeeds = DoubleArray(total)
-        first = IntArray(total)
-        var at = 0
-        stretches = starts.indices.map { k ->
-            val begin = at
-            var row = starts[k]
-            val last = (starts.getOrNull(k + 1) ?: series.size) - 1
-            repeat(counts[k]) { i ->
-                val time = series.times[starts[k]] + i * step
-                while (row < last - 1 && series.times[row + 1] < time) row++
-                val next = minOf(row + 1, last)
-                val span = series.times[next] - series.times[row]
-                val share = if (span > 0) ((time - series.times[row]) / span).coerceIn(0.0, 1.0) else 0.0
-                fun between(of: DoubleArray) = of[row] + share * (of[next] - of[row])
-                times[at] = time
-                xs[at] = between(series.xs)
-                ys[at] = between(series.ys)
-                values[at] = between(series.values)
-                logSpeeds[at] = ln(series.pace(if (share < HALF) row else next, 1.0))
-                first[at] = begin
-                at++
-            }
-            Stretch(begin, counts[k]).also(::prepare)
-        }
+        val points = EvenPoints(series, step)
+        stretches = points.stretches.map { (readings, at) -> Stretch(readings, at).also(::prepare) }
+        times = points.times.toDoubleArray()
+        xs = points.xs.toDoubleArray()
+        ys = points.ys.toDoubleArray()
+        logSpeeds = points.logSpeeds.toDoubleArray()
+        first = points.first.toIntArray()
     }
 
     /** Takes the line through both ends off, mirrors what is left at its end, and transforms it. */
@@ -109,15 +84,15 @@ internal class PhaseCorrection(private val series: TrackSeries) {
         var head = 0.0
         var tail = 0.0
         for (i in 0 until end) {
-            head += values[stretch.begin + i] / end
-            tail += values[stretch.begin + n - 1 - i] / end
+            head += stretch.readings[i] / end
+            tail += stretch.readings[n - 1 - i] / end
         }
         stretch.slope = if (n > end) (tail - head) / ((n - end) * step) else 0.0
         stretch.offset = head - stretch.slope * (end - 1) / 2.0 * step
         for (i in 0 until n) {
-            stretch.re[i] = values[stretch.begin + i] - stretch.offset - stretch.slope * i * step
-            val from = values[stretch.begin + maxOf(0, i - SLOPE_REACH)]
-            stretch.sides[i] = if (values[stretch.begin + minOf(n - 1, i + SLOPE_REACH)] > from) 1.0 else -1.0
+            stretch.re[i] = stretch.readings[i] - stretch.offset - stretch.slope * i * step
+            val from = stretch.readings[maxOf(0, i - SLOPE_REACH)]
+            stretch.sides[i] = if (stretch.readings[minOf(n - 1, i + SLOPE_REACH)] > from) 1.0 else -1.0
         }
         stretch.fourier.transform(stretch.re, stretch.im, backwards = false)
     }
@@ -140,13 +115,12 @@ internal class PhaseCorrection(private val series: TrackSeries) {
     private fun correctByFlow(response: Response, out: DoubleArray, earlier: Double) {
         val reach = (response.lags.single().rising / step).toInt()
         val logs = DoubleArray(size)
-        for (stretch in stretches) {
-            val last = stretch.begin + stretch.size - 1
-            for (at in stretch.begin..last) {
-                val from = maxOf(stretch.begin, at - reach)
-                val to = minOf(last, at + reach)
-                logs[at] = -response.flowExponent * (logSums[to + 1] - logSums[from]) / (to + 1 - from)
-            }
+        var end = 0
+        for (at in 0 until size) {
+            if (end <= at) end = (at until size).firstOrNull { first[it] != first[at] } ?: size
+            val from = maxOf(first[at], at - reach)
+            val to = minOf(end - 1, at + reach)
+            logs[at] = -response.flowExponent * (logSums[to + 1] - logSums[from]) / (to + 1 - from)
         }
         val usual = exp(logs.average())
         val mean = response.lags.single().rising * usual
@@ -155,7 +129,8 @@ internal class PhaseCorrection(private val series: TrackSeries) {
             correct(stretch, Response(lags = listOf(ResponseLag(mean))), out, earlier)
             slopes(stretch, mean, earlier)
             for (i in 0 until stretch.size) {
-                val at = stretch.begin + i
+                val at = stretch.at[i]
+                if (at < 0) continue
                 out[at] += mean * (times[at] / usual - 1) * (stretch.workRe[i] / stretch.fourier.size + stretch.slope)
             }
         }
@@ -194,7 +169,8 @@ internal class PhaseCorrection(private val series: TrackSeries) {
         if (isOneSided) for (k in 0 until n) addOneSided(stretch, response, k, frequency(k, n))
         stretch.fourier.transform(stretch.workRe, stretch.workIm, backwards = true)
         for (i in 0 until stretch.size) {
-            out[stretch.begin + i] = stretch.workRe[i] / n + stretch.offset +
+            if (stretch.at[i] < 0) continue
+            out[stretch.at[i]] = stretch.workRe[i] / n + stretch.offset +
                 stretch.slope * (i * step + response.meanDelay + earlier)
         }
     }
@@ -256,7 +232,6 @@ internal class PhaseCorrection(private val series: TrackSeries) {
     }
 
     private companion object {
-        const val HALF = 0.5
         const val SOFT = 0.2
         const val ENDS = 5
 

@@ -159,9 +159,10 @@ public class RevisitLearner private constructor(
     public fun unevenness(response: Response): Double {
         if (found.isEmpty()) return 0.0
         val at = scores(response)
+        val telling = awayFromGaps(response)
         fun total(deviation: Double): Double {
             val each = HERMITE.map { (place, weight) -> weight to scores(response, place * deviation) }
-            return at.indices.sumOf { block ->
+            return telling.sumOf { block ->
                 val others = each.sumOf { (weight, moved) -> weight * exp(minOf(moved[block] - at[block], MOST_LOG)) }
                 ln(HERMITE_MIDDLE + others)
             }
@@ -170,6 +171,20 @@ public class RevisitLearner private constructor(
         val allowed = maxOf(even.step, FIXES_OFF)
         val likeliest = List(DEVIATIONS) { allowed * Math.pow(DEVIATION_FACTOR, it.toDouble()) }.maxBy(::total)
         return sqrt(BOTH_MOVED * (likeliest * likeliest - allowed * allowed))
+    }
+
+    /**
+     * Blocks of which no run is so near a gap that what [response] gives there is of readings that are missing; all where
+     * too few are left.
+     */
+    private fun awayFromGaps(response: Response): List<Int> {
+        val reach = GAP_REACH * response.meanDelay
+        return found.indices.filter { index ->
+            val block = found[index]
+            block.firsts.indices.none { run ->
+                nodes.isNearGap(block.firsts[run] until block.firsts[run] + block.lengths[run], reach)
+            }
+        }.takeIf { it.size >= FEWEST_BLOCKS } ?: found.indices.toList()
     }
 
     override fun candidate(kind: ResponseKind): CandidateResponse? {
@@ -202,6 +217,9 @@ public class RevisitLearner private constructor(
 
         /** A metre of a boat at 1 m/s, s. */
         private const val FIXES_OFF = 1.0
+
+        /** Delays of a response after which a twentieth of what it remembers is left, e⁻³. */
+        private const val GAP_REACH = 3.0
         private const val DEVIATIONS = 14
         private const val DEVIATION_FACTOR = 1.25
 

@@ -30,7 +30,18 @@ internal class TrackNodes(private val even: PhaseCorrection, val thinning: Int) 
             first[i] = if (even.first[starts[i]] == even.first[starts[i - 1]]) first[i - 1] else i
         }
     }
+    private val last: IntArray = IntArray(starts.size).also { last ->
+        for (i in last.indices.reversed()) last[i] = if (i + 1 < size && first[i + 1] == first[i]) last[i + 1] else i
+    }
     val size: Int get() = times.size
+
+    /** Whether [run], nodes of one stretch, is within [time], s, of a gap. */
+    fun isNearGap(run: IntRange, time: Double): Boolean {
+        val begin = first[run.first]
+        val end = last[run.last]
+        return (begin > 0 && times[run.first] - times[begin] < time) ||
+            (end < size - 1 && times[end] - times[run.last] < time)
+    }
 
     /** Time between nodes, s. */
     val step: Double = even.step * thinning

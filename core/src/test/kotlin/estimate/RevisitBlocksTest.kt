@@ -40,4 +40,12 @@ class RevisitBlocksTest {
         val far = against(10.0, nodes(0.0, 10.0, 400.0, 410.0))
         assertTrue(far.isNotEmpty() && far.all { 400.0 !in it }, "$far")
     }
+
+    @Test
+    fun runsBesideAGapAreToldFromOthers() {
+        // Legs of 81 rows each; the first and the last row of the log are no gap.
+        val nodes = nodes(0.0, 10.0)
+        assertEquals(listOf(false, false, true), listOf(0..11, 40..51, 60..71).map { nodes.isNearGap(it, 15.0) })
+        assertEquals(listOf(true, false, false), listOf(81..92, 110..121, 150..161).map { nodes.isNearGap(it, 15.0) })
+    }
 }
