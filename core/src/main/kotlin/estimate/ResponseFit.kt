@@ -11,6 +11,12 @@ public interface ResponseLearner {
 
     /** [kind] as it fits best; null where the log holds no evidence on it. */
     public fun candidate(kind: ResponseKind): CandidateResponse?
+
+    /** [kind] as it fits best near [parameters], in their order; null where it is not searched from there. */
+    public fun near(kind: ResponseKind, parameters: List<Double>): CandidateResponse? = null
+
+    /** Shortest time that is told from none, s, above 0. */
+    public val shortest: Double get() = Double.MIN_VALUE
 }
 
 /**
@@ -18,6 +24,7 @@ public interface ResponseLearner {
  *
  * @param groupOf group of each block. @param groups number of groups.
  * @param total sum of the scores at the logarithms of the parameters. @param scores one score a block, likewise.
+ * @param longest times are not longer than that, s; infinite without an end.
  * @param isSharp whether the scores may tell a parameter to far less than [CURVATURE_STEP], and are smooth below it.
  */
 internal class ResponseFit(
@@ -27,6 +34,7 @@ internal class ResponseFit(
     private val total: (DoubleArray) -> Double,
     private val scores: (DoubleArray) -> DoubleArray,
     private val isSharp: Boolean = false,
+    private val longest: Double = Double.POSITIVE_INFINITY,
 ) {
     private val size = kind.parameters.size
 
@@ -89,6 +97,7 @@ internal class ResponseFit(
             ScoreCurvature.axes(covariance),
             at.sum(),
             heldOut,
+            (0 until size).filter { kind.isTime(it) && !kind.isSlow(it) && exp(logs[it]) > AT_LONGEST * longest },
         )
     }
 
@@ -113,6 +122,9 @@ internal class ResponseFit(
         const val MORE = 1.2
         const val FAST = 0.8
         const val CURVATURE_STEP = 0.15
+
+        /** Share of the longest time at which a search that was stopped there ends. */
+        const val AT_LONGEST = 0.95
 
         /** Student's variance is (n − 1) / (n − 3) of that many groups. */
         const val FEWEST_GROUPS = 3

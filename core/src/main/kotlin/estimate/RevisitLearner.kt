@@ -33,6 +33,9 @@ public class RevisitLearner private constructor(
         IntArray(found.size) { (it.toLong() * count / found.size).toInt() }
     }
 
+    /** Longest time constant or dead time that is looked for, s: a quarter of the log's length. */
+    public val longest: Double = (even.times.last() - even.times.first()) / LAGS_IN_A_LOG
+
     /**
      * Number of short runs of the track that other passes foretell; 0 where the log says nothing about the response.
      */
@@ -55,7 +58,7 @@ public class RevisitLearner private constructor(
      */
     private fun learnField() {
         val delays =
-            listOf(0.0) + (0 until DELAYS).map { even.step * DELAY_FROM * Math.pow(DELAY_FACTOR, it.toDouble()) }
+            listOf(0.0) + generateSequence(DELAY_FROM * even.step) { it * DELAY_FACTOR }.takeWhile { it < longest }
         var best = Double.NEGATIVE_INFINITY
         var bestScale: FieldScale? = null
         for (part in LENGTHS) {
@@ -119,7 +122,7 @@ public class RevisitLearner private constructor(
 
     private fun total(kind: ResponseKind, logs: DoubleArray): Double {
         val parameters = DoubleArray(logs.size) { exp(logs[it]) }
-        val times = LEAST_STEPS * even.step..MOST_STEPS * even.step * thinning
+        val times = shortest..longest
         val isPossible = kind.isOwn(parameters) &&
             parameters.indices.all { !kind.isTime(it) || kind.isSlow(it) || parameters[it] in times }
         if (!isPossible) return Double.NEGATIVE_INFINITY
@@ -190,10 +193,17 @@ public class RevisitLearner private constructor(
     override fun candidate(kind: ResponseKind): CandidateResponse? {
         if (found.isEmpty() || kind in NOT_TOLD) return null
         if (kind == ResponseKind.FLOW && !even.hasSpeeds) return null
-        val fit = ResponseFit(kind, groupOf, groups, { total(kind, it) }, { scores(kind, it) })
         // The delay is that of the likeliest single lag, in water that was guessed.
-        return fit.best(List(BEGINS) { delay * Math.pow(2.0, it - BEGINS + 2.0) })
+        return fit(kind).best(List(BEGINS) { delay * Math.pow(2.0, it - BEGINS + 2.0) })
     }
+
+    override fun near(kind: ResponseKind, parameters: List<Double>): CandidateResponse =
+        fit(kind).near(DoubleArray(parameters.size) { ln(parameters[it]) })
+
+    override val shortest: Double get() = LEAST_STEPS * even.step
+
+    private fun fit(kind: ResponseKind) =
+        ResponseFit(kind, groupOf, groups, { total(kind, it) }, { scores(kind, it) }, longest = longest)
 
     public companion object {
         /** A learner for [series]; long ones are best cut to some ten thousand readings. */
@@ -247,8 +257,9 @@ public class RevisitLearner private constructor(
         private const val LEAST_NOISE = -16.0
         private const val DELAY_FROM = 0.25
         private const val DELAY_FACTOR = 1.6
-        private const val DELAYS = 16
-        private const val MOST_STEPS = 40.0
+
+        /** A lag is seen by where it sets in and by where it has died away: several times within the log. */
+        private const val LAGS_IN_A_LOG = 4
         private const val LEAST_STEPS = 0.01
     }
 }

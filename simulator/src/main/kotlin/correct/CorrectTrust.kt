@@ -47,7 +47,25 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
 
     /** What the user should know, one line each. */
     val warnings: List<String>
-        get() = listOfNotNull(calibrated(), misfit(), contradicted(), uneven(), wandered(), unchecked(), limited())
+        get() = listOfNotNull(
+            unbounded(),
+            calibrated(),
+            misfit(),
+            contradicted(),
+            uneven(),
+            wandered(),
+            unchecked(),
+            limited(),
+        )
+
+    /** A time as long as any that was looked for. */
+    private fun unbounded(): String? {
+        val open = result.choice?.open?.firstOrNull { it.atLongest.isNotEmpty() } ?: return null
+        val longest = digits(open.parameter(open.atLongest.first()), 2)
+        return "the log does not show how slow the sensor is: $longest s, of the ${open.kind.label}, is as long as " +
+            "was looked for, a quarter of the log. It may be slower still; intervals hold one that is a few times as " +
+            "slow"
+    }
 
     /** The reference is in another unit, or the sensor is far out. */
     private fun calibrated(): String? {

@@ -19,6 +19,7 @@ import stillwater.estimate.TrackCorrector
 import stillwater.estimate.TrackSeries
 import stillwater.estimate.UnusableReadings
 import stillwater.estimate.ZeroWander
+import stillwater.estimate.atLeastAsNested
 import stillwater.estimate.rateLimit
 import stillwater.io.LogProblem
 import stillwater.io.SurveyLog
@@ -306,7 +307,7 @@ internal object SensorLearning {
                 async { kinds.drop(half).mapNotNull(learner::candidate) },
             ).awaitAll().flatten()
         }
-        return if (found.isEmpty()) null else ResponseChoice.of(found, Random(SEED))
+        return if (found.isEmpty()) null else ResponseChoice.of(learner.atLeastAsNested(found), Random(SEED))
     }
 }
 
