@@ -138,7 +138,13 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
     }
 
     private fun unchecked(): String? {
-        if (!agreement.ratio.isNaN() || result.origin !in LEARNED) return null
+        if (!agreement.ratio.isNaN()) return null
+        if (result.origin == SensorOrigin.GIVEN) {
+            return "nothing in the log checked the sensor given, for ${crossings()}, and intervals are checked where " +
+                "two passes read the same place, ${TrackAgreement.FEWEST} places at least: they hold if the sensor " +
+                "is this one"
+        }
+        if (result.origin !in LEARNED) return null
         return "${crossings()}, and intervals are checked where two passes read the same place, " +
             "${TrackAgreement.FEWEST} places at least: unchecked, they hold if the sensor is one of those named. " +
             "${zero()}, which looks like water that differs from leg to leg; nor all of a lag that changes along the " +

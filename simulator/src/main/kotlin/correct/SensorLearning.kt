@@ -231,6 +231,10 @@ internal object SensorLearning {
             val found = "${references[telling[0]]} in every row"
             throw LogProblem(log.file, null, null, "a reference that changes", found)
         }
+        if (telling.all { all.measured[it] == series.values[it] }) {
+            val found = "the numbers of ${log.quantity} in every row that has one"
+            throw LogProblem(log.file, null, null, "a reference of another instrument than the readings", found)
+        }
         val part = series.at(rows)
         val reference = DoubleArray(rows.size) { references[rows[it]] }
         val out = unusable.at(rows)

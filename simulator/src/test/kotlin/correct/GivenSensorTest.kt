@@ -109,6 +109,23 @@ class GivenSensorTest {
     }
 
     @Test
+    fun thatNothingCheckedTheSensorGivenIsSaid() {
+        val log = file("bench.csv", bench(SensorStage.Lag(12.0)))
+        val given = run("correct", log, "--value", "do_mg_l", "--sensor", spec(SensorStage.Lag(12.0)))
+        assertEquals(0, given.statusCode, given.output)
+        assertContains(given.stderr, "nothing in the log checked the sensor given, for the log has no places")
+    }
+
+    @Test
+    fun aReferenceThatIsTheReadingsIsRefused() {
+        val rows = bench(SensorStage.Lag(12.0)).trim().lines().map { it.split(",") }
+        val log = file("copy.csv", rows.joinToString("\n") { "${it[0]},${it[1]},${it[1].replace("do", "copy")}" })
+        val copied = run("correct", log, "--value", "do_mg_l", "--reference", "copy_mg_l")
+        assertEquals(2, copied.statusCode, copied.output)
+        assertContains(copied.stderr, "found the numbers of do_mg_l in every row")
+    }
+
+    @Test
     fun aLogWithoutPlacesIsCorrectedInTime() {
         val log = file("bench.csv", bench(SensorStage.Lag(12.0)))
         for (known in listOf(listOf("--sensor", spec(SensorStage.Lag(12.0))), listOf("--reference", "truth"))) {
