@@ -7,8 +7,7 @@ import kotlin.math.ln
  *
  * Short gaps are bridged by a straight line in the readings that are transformed, [stretches], though no point stands
  * there: what a sensor showed before a gap goes on after it, and an end of a stretch is where a transform knows least.
- * A gap is bridged if it is no longer than the longer of the two stretches beside it, so that bridges are no more than
- * twice as many steps as there are points. Confined to its constructor.
+ * A gap is bridged if it is [SHORT] beside the longer of the two stretches that it lies between. Confined to its constructor.
  *
  * @param series the readings. Not retained. @param step time between points, s.
  */
@@ -36,7 +35,7 @@ internal class EvenPoints(private val series: TrackSeries, private val step: Dou
         val joined = ArrayList<IntRange>()
         for (k in starts.indices) {
             val isBridged = k > 0 &&
-                series.times[starts[k]] - series.times[ends[k - 1]] <= maxOf(length(k - 1), length(k))
+                series.times[starts[k]] - series.times[ends[k - 1]] <= SHORT * maxOf(length(k - 1), length(k))
             if (isBridged) joined += joined.removeLast().first..ends[k] else joined += starts[k]..ends[k]
         }
         stretches = joined.map(::resampled)
@@ -72,6 +71,11 @@ internal class EvenPoints(private val series: TrackSeries, private val step: Dou
     }
 
     private companion object {
+        /**
+         * Of the longer stretch beside a gap, below which it is bridged: rows that are missing within a leg, not what lies between
+         * two casts of a float, a tenth of a cast and more, where the water is not as it is on a line.
+         */
+        const val SHORT = 0.05
         const val HALF = 0.5
     }
 }

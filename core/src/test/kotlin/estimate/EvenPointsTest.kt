@@ -23,26 +23,27 @@ class EvenPointsTest {
 
     @Test
     fun aShortGapIsBridgedAndHasNoPoints() {
-        val points = EvenPoints(series(rows(0..29) + rows(50..79)), 1.0)
+        val points = EvenPoints(series(rows(0..599) + rows(620..1219)), 1.0)
         val (readings, at) = points.stretches.single()
-        assertEquals(rows(0..79), readings.toList())
-        assertEquals(rows(0..29) + rows(50..79), points.times)
-        assertEquals(List(30) { 0 } + List(30) { 30 }, points.first)
-        assertEquals((0..29).toList() + List(20) { -1 } + (30..59), at.toList())
+        assertEquals(rows(0..1219), readings.toList())
+        assertEquals(rows(0..599) + rows(620..1219), points.times)
+        assertEquals(List(600) { 0 } + List(600) { 600 }, points.first)
+        assertEquals((0..599).toList() + List(20) { -1 } + (600..1199), at.toList())
     }
 
+    /** What lies between two casts is no leg with some rows missing. */
     @Test
-    fun aGapThatIsLongerThanTheStretchesBesideItIsNone() {
-        val points = EvenPoints(series(rows(0..29) + rows(60..89)), 1.0)
-        assertEquals(listOf(30, 30), points.stretches.map { it.first.size })
-        assertEquals(List(30) { 0 } + List(30) { 30 }, points.first)
+    fun aGapOfATenthOfTheStretchesBesideItIsNone() {
+        val points = EvenPoints(series(rows(0..299) + rows(330..629)), 1.0)
+        assertEquals(listOf(300, 300), points.stretches.map { it.first.size })
+        assertEquals(List(300) { 0 } + List(300) { 300 }, points.first)
     }
 
     @Test
     fun stepsThatMissTheRowsAfterAGapBeginWithTheNextOne() {
-        val points = EvenPoints(series(rows(0..9) + rows(18..29).map { it + 0.5 }), 1.0)
-        assertEquals(rows(0..9) + rows(19..29), points.times)
-        assertEquals(List(10) { 0 } + List(11) { 10 }, points.first)
+        val points = EvenPoints(series(rows(0..9) + rows(18..229).map { it + 0.5 }), 1.0)
+        assertEquals(rows(0..9) + rows(19..229), points.times)
+        assertEquals(List(10) { 0 } + List(211) { 10 }, points.first)
     }
 
     @Test
