@@ -38,10 +38,10 @@ internal object TooLittle {
         val readings = series.shown(series.values)
         return when {
             readings.size < FEWEST_ROWS -> null
+            isFlat(readings) && isFlat(truth) -> "neither the readings nor the truth ever change"
             series.shown(truth).contentEquals(readings) ->
                 "the reference has the readings' own number in every row: it is the same column, and no other instrument's"
             !isFlat(readings) -> null
-            isFlat(truth) -> "neither the readings nor the truth ever change"
             else ->
                 "the readings never change, though the reference does: the sensor or the logger hung, or what the " +
                     "reference does is beyond the sensor's range"
