@@ -7,7 +7,7 @@ import kotlin.math.ln
  *
  * Short gaps are bridged by a straight line in the readings that are transformed, [stretches], though no point stands
  * there: what a sensor showed before a gap goes on after it, and an end of a stretch is where a transform knows least.
- * A gap is bridged if it is [SHORT] beside the longer of the two stretches that it lies between. Confined to its constructor.
+ * A gap is bridged if it is at most [SHORT] of the longer of the two stretches that it lies between. Confined to its constructor.
  *
  * @param series the readings. Not retained. @param step time between points, s.
  */
@@ -72,7 +72,7 @@ internal class EvenPoints(private val series: TrackSeries, private val step: Dou
 
     private companion object {
         /**
-         * Of the longer stretch beside a gap, below which it is bridged: rows that are missing within a leg, not what lies between
+         * Part of the longer stretch beside it up to which a gap is bridged: rows that are missing within a leg, not what lies between
          * two casts of a float, a tenth of a cast and more, where the water is not as it is on a line.
          */
         const val SHORT = 0.05

@@ -24,9 +24,13 @@ internal class LagLead(private val size: Int, private val followed: Int, private
          * are the field's; null where none does, or where a limit tells which way the sensor goes.
          */
         fun of(response: Response, water: Int, size: Int): LagLead? {
+            if (!isAskedOf(response)) return null
             val k = response.lags.indexOfFirst { it.rising != it.falling }
-            if (k < 0 || response.slewRate.isFinite() || response.slowShare > 0) return null
             return LagLead(size, if (k == 0) 0 else water + k - 1, water + k)
         }
+
+        /** Whether one tells of [response] which way its lags go. */
+        fun isAskedOf(response: Response): Boolean =
+            response.lags.any { it.rising != it.falling } && !response.slewRate.isFinite() && response.slowShare <= 0
     }
 }

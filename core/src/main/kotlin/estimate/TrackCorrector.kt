@@ -232,7 +232,7 @@ public class TrackCorrector(
      * readings that are near to each other tell it only where they have hardly any noise.
      */
     private fun tellSides(stretch: Stretch, response: Response, along: AlongTrack, step: Double) {
-        if (response.slewRate.isFinite() || response.lags.all { it.rising == it.falling }) return
+        if (!LagLead.isAskedOf(response)) return
         val calm = DoubleArray(stretch.size) { 1.0 }
         val mean = DoubleArray(stretch.size)
         val variance = DoubleArray(stretch.size)

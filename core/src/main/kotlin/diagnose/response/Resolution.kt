@@ -22,6 +22,9 @@ internal object Resolution {
     /** Units of the last decimal that a step needs at least, so that one step and two are not mixed up. */
     private const val LEAST_UNITS = 4.0
 
+    /** The same by which two gaps of one step each may differ, rounded at both ends, and what arithmetic adds. */
+    private const val UNITS_APART = 2.5
+
     /** The same that a value may be off its step: half of one, and what the step itself is off. */
     private const val UNITS_OFF = 0.6
 
@@ -51,7 +54,7 @@ internal object Resolution {
     private fun writtenAgain(distinct: List<Double>, gaps: DoubleArray, smallest: Double): Double {
         val unit = unit(distinct) ?: return 0.0
         if (distinct.size < LEAST_VALUES || smallest < (LEAST_UNITS - 1) * unit) return 0.0
-        val first = gaps.filter { it < smallest + 2.5 * unit }.average()
+        val first = gaps.filter { it < smallest + UNITS_APART * unit }.average()
         if (first < LEAST_UNITS * unit) return 0.0
         val counts = DoubleArray(distinct.size)
         for (i in gaps.indices) counts[i + 1] = counts[i] + round(gaps[i] / first)
