@@ -17,8 +17,8 @@ import java.nio.file.Path
  *
  * @property file the log. @property quantity the column that is diagnosed. @property reference the column with the
  * truth, or null. @property series its columns. @property columns the rows that were used. @property pass what was read.
- * @property steps rows with a reference among all. @property bridged what was done where numbers of conditions are
- * missing, one sentence each.
+ * @property steps rows with a reference among all. @property bridged what was done where numbers are missing or stand
+ * for none, one sentence each.
  * @property cut rows at the end that were not looked at. @property frame frame of its places, or null
  * where the log has metres. @property heading what its headings are in, or null where none were given.
  */
@@ -106,15 +106,18 @@ class DiagnosisLog private constructor(
             }
             if (heading?.inDegrees == true) listOf(read, all).forEach { it.toRadians(Conditions.HEADING) }
             val asked = ConditionColumns(log, conditions, read.times) { checkNotNull(read.condition(it)) }
-            val columns = read.without(asked.unknown)
+            val codes = CodedRows(read, log.quantity, reference)
+            val columns = read.without(BooleanArray(read.size) { asked.unknown[it] || codes.isIn(it) })
             if (columns.size < FEWEST_ROWS) {
                 val unknown = mapOf(
                     "no number in the column $reference" to steps.missing.toLong(),
-                    "a condition that is not known" to (read.size - columns.size).toLong(),
+                    "a number that stands for none" to codes.rows.toLong(),
+                    "a condition that is not known" to (read.size - columns.size - codes.rows).toLong(),
                 )
                 throw tooFew(log, columns.size, reference, pass.skipped + unknown.filterValues { it > 0 })
             }
-            all.unread(read.times.filterIndexed { i, _ -> asked.unknown[i] }.toSet())
+            all.unread(read.times.filterIndexed { i, _ -> asked.unknown[i] || codes.isRead[i] }.toSet())
+            all.untold(read.times.filterIndexed { i, _ -> codes.isTold[i] }.toSet())
             val others = names.mapNotNull { columns.condition(it) }.toTypedArray()
             SquareReach.require(log, columns.values, columns.reference, *others)
             return DiagnosisLog(
@@ -134,7 +137,7 @@ class DiagnosisLog private constructor(
                 cut,
                 log.frame,
                 heading,
-                asked.bridged("left out"),
+                asked.bridged("left out") + codes.notes,
                 compare,
             )
         }

@@ -35,6 +35,11 @@ class LogColumns(private val conditions: Collection<String>) {
         for (row in rows) if (row[0] in times) row[3] = Double.NaN
     }
 
+    /** Takes the truth at [times], s, for not known; before any column is taken. */
+    internal fun untold(times: Set<Double>) {
+        for (row in rows) if (row[0] in times) row[FIXED] = Double.NaN
+    }
+
     private fun column(i: Int) = DoubleArray(rows.size) { rows[it][i] }
 
     /** Makes radians of the degrees of the condition [name]; before any column is taken. */
