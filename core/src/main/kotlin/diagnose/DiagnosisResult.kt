@@ -100,8 +100,9 @@ public class ModelAssessment internal constructor(
  *
  * @property cause the cause. @property condition what it depends on, where that has a name.
  * @property parameters its numbers, if it were at work. @property trainRmse with it, sensor units.
- * @property heldOutRmse the same on held-out blocks; the base's where the cause was not worth a look.
- * @property heldOutLogLikelihood of those blocks; NaN where it was not taken. @property pValue of its gain by chance.
+ * @property heldOutRmse the same on held-out blocks; NaN where it was not taken, for the cause was not worth a look.
+ * @property heldOutLogLikelihood of those blocks; NaN where it was not taken. @property pValue of its gain by chance; 0 of
+ * rounding that readings show by themselves, all being on steps that make a quarter of the noise.
  * @property adjustedPValue for all causes tried, after Holm.
  * @property predicted what the model with it shows, sensor units, length n. Not to be modified.
  */
@@ -119,7 +120,20 @@ public class Candidate internal constructor(
     internal fun of(rows: IntArray) = with(parameters, predicted.at(rows))
 
     /** The same with other numbers and rows. */
-    internal fun with(parameters: List<Estimate>, predicted: DoubleArray = this.predicted) = Candidate(
+    internal fun with(parameters: List<Estimate>, predicted: DoubleArray = this.predicted) =
+        with(parameters, predicted, pValue, adjustedPValue)
+
+    /** The same, where it is rounding, of readings that show that by themselves: which steps they are on is no chance. */
+    internal fun surelyRounded(): Candidate =
+        if (cause == Cause.QUANTISATION) with(parameters, predicted, 0.0, 0.0) else this
+
+    /** The same with other numbers and rows, and as sure as [pValue] and [adjustedPValue] say. */
+    internal fun with(
+        parameters: List<Estimate>,
+        predicted: DoubleArray,
+        pValue: Double,
+        adjustedPValue: Double,
+    ) = Candidate(
         cause,
         condition,
         parameters,

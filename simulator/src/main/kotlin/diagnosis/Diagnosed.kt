@@ -48,6 +48,13 @@ class Diagnosed(
     /** What the reader must know beside the answer. */
     val warnings: List<String> = buildList {
         addAll(result.warnings)
+        addAll(chosenForTheFile())
+        worth?.takeIf { it.isWorse }?.let {
+            add(
+                "For a map by the interval filter the extended model is no gain, for that knows its limits alone; " +
+                    "what undoes the sensor's response is the command correct, with --sensor extended-sensor.json.",
+            )
+        }
         channels?.let { add(ChannelWording.of(it)) }
         log.heading?.let { add(it.sentence) }
         // What was taken for what in a log that is not written plainly is not to be found in the report alone.
@@ -66,6 +73,18 @@ class Diagnosed(
         if (log.cut > 0) {
             val were = if (log.cut == 1L) "was" else "were"
             add("${counted(log.cut, "row")} at the end $were not looked at: ${DiagnosisLog.MOST_ROWS} are the most.")
+        }
+    }
+
+    /** That the sensor file holds what may as well be the water's, one sentence for each. */
+    private fun chosenForTheFile(): List<String> {
+        val held = result.extended?.parameters.orEmpty().map { it.name }
+        return result.verdict.ambiguity.filter { Cause.TIME_VARYING_FIELD in it }.mapNotNull { set ->
+            val own = set.firstOrNull { cause -> alone(cause).any { it.name != TIME_CONSTANT && it.name in held } }
+            own?.let {
+                "extended-sensor.json holds the ${it.label}, though the water may have changed instead: what is given " +
+                    "that file takes it for the sensor's."
+            }
         }
     }
 
@@ -157,7 +176,12 @@ class Diagnosed(
             .joinToString("") { (_, words) -> ", with $words" }
 
     /** How the sensor's gain and offset are off the reference; null where they are not clearly, or were given. */
-    val calibration: String? = if (log.reference == null) null else Calibration(this).words()
+    val calibration: String? = when {
+        log.reference == null -> null
+        // What is not understood, or hardly there, is no calibration.
+        result.verdict is Verdict.Unexplained || result.verdict is Verdict.InsufficientData -> null
+        else -> Calibration(this).words()
+    }
 
     /** [parameters] in words. */
     fun numbers(parameters: List<Estimate>): String = parameters.joinToString(", ") { "${name(it)} ${number(it)}" }

@@ -164,6 +164,8 @@ internal class DiagnosisReport(
                 "inflates it, is significant for all causes tried (Holm) and the likelihood of held-out blocks " +
                 "rises. Causes that this track hardly tells apart are named together: the set holds the right one " +
                 "with nine chances in ten.",
+            "That readings lie on steps they show by themselves: rounding is named where it makes a quarter of the " +
+                "noise, whatever it gains. Blocks are held out for causes that are worth a look; the others have none.",
             "Intervals hold if the model is right.",
         )
     }

@@ -18,7 +18,11 @@ import stillwater.sensor.SensorStage
  * @property environments number of fields.
  */
 class MapWorth(val before: Double, val after: Double, val error: Double, val environments: Int) {
+    /** Whether the extended model makes the map worse for certain. */
+    val isWorse: Boolean get() = after - before > CERTAIN * error
+
     companion object {
+        private const val CERTAIN = 3.0
         private const val ENVIRONMENTS = 20
         private const val MOVES = 300
         private const val SLACK = 1.5

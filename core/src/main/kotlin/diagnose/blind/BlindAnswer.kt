@@ -10,6 +10,7 @@ import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
 import stillwater.diagnose.evidence.CoarseRounding
+import stillwater.diagnose.evidence.Evidence
 import stillwater.diagnose.evidence.Manoeuvres
 import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.evidence.StillReadings
@@ -89,8 +90,12 @@ internal class BlindAnswer(
         val sensor = ExtendedSensor(asFit(named), size, isRounded, leftOut, range = range)
         val extended = onLog(sensor.spec("extended")).takeIf { isNamed }
         val tried = candidates(first).map { candidate ->
-            if (candidate.cause == Cause.SATURATION && range != null) ended(candidate, range, still) else candidate
-        }
+            when {
+                candidate.cause == Cause.SATURATION && range != null -> ended(candidate, range, still)
+                isRounded -> candidate.surelyRounded()
+                else -> candidate
+            }
+        } + beside(first.changed, first.causes.size + 1)
         // Of what was only tried nobody need know that it ended at a bound.
         estimates.bounds.clear()
         val lagging = assessment(base)
@@ -310,20 +315,26 @@ internal class BlindAnswer(
         return listOfNotNull(givenCandidate()) + list.sortedByDescending { it.second }.map { it.first }
     }
 
+    /** What changes nothing in what the model shows: wild readings, and water that changes, worth [changed], of so many [tried]. */
+    private fun beside(changed: Double, tried: Int): List<Candidate> {
+        val chances = listOf(Cause.OUTLIERS to outliers.pValue, Cause.TIME_VARYING_FIELD to Evidence.pValue(changed, 1))
+        return chances.map { (cause, p) ->
+            val numbers = outliers.size()?.takeIf { cause == Cause.OUTLIERS }?.numbers.orEmpty()
+            val adjusted = minOf(p * tried, 1.0)
+            val rest = rmse(last.residuals)
+            Candidate(cause, null, numbers, rest, Double.NaN, Double.NaN, p, adjusted, last.shown)
+        }
+    }
+
     /** The saturation that was tried as [candidate], whose ends are those of [range] at which readings stand [still]. */
-    private fun ended(candidate: Candidate, range: SensorStage.Range, still: StillReadings) = Candidate(
-        candidate.cause,
-        candidate.condition,
+    private fun ended(candidate: Candidate, range: SensorStage.Range, still: StillReadings) = candidate.with(
         candidate.parameters.filter { it.name == "time_constant_s" } +
             listOf("lower" to range.lower, "upper" to range.upper).mapNotNull { (name, end) ->
                 end?.let { Estimate(name, "sensor units", it, null) }
             },
-        candidate.trainRmse,
-        candidate.heldOutRmse,
-        candidate.heldOutLogLikelihood,
-        still.atEnd,
-        still.atEnd,
         candidate.predicted,
+        still.atEnd,
+        still.atEnd,
     )
 
     private fun givenCandidate(): Candidate? = given?.state?.let {

@@ -20,6 +20,7 @@ import stillwater.diagnose.evidence.StillReadings
 import stillwater.diagnose.evidence.Structure
 import stillwater.diagnose.evidence.Trial
 import stillwater.diagnose.evidence.UnevenNoise
+import stillwater.diagnose.evidence.without
 import stillwater.diagnose.isFlat
 import stillwater.diagnose.response.ExtendedSensor
 import stillwater.diagnose.response.ModelFit
@@ -134,11 +135,10 @@ internal class Weighing(
         val unnamed = (equal + small).map { (trial, _) -> trial.term.cause }.toSet()
         val sensor = ExtendedSensor(last, size, rounded, leftOut = unnamed, hasWander = true)
         val extended = if (named) sensor.spec("extended") else null
-        val candidates = candidates(size, loose.pValue)
-        // A shift that is fitted beside and not named belongs to the base: without it lag and gain make up for it.
-        val isShifted = verdict is Verdict.Consistent && small.isNotEmpty() && equal.isEmpty()
-        val baseline = if (isShifted) assessment(last) else report.assessment(base, baseHeldOut)
-        val baseSensor = if (isShifted) sensor else ExtendedSensor(base, null, hasWander = true)
+        val candidates = candidates(size, loose.pValue).map { if (rounded) it.surelyRounded() else it }
+        val shifted = if (equal.isEmpty() && small.isNotEmpty()) shiftedBase(verdict, clear.map { it.first }) else null
+        val baseline = shifted?.let(::assessment) ?: report.assessment(base, baseHeldOut)
+        val baseSensor = ExtendedSensor(shifted ?: base, null, leftOut = unnamed, hasWander = true)
         val after = if (named) assessment(last) else null
         return DiagnosisResult(
             verdict,
@@ -161,6 +161,23 @@ internal class Weighing(
             if (named) clear.map { (trial, _) -> effect(trial.term) } else emptyList(),
             water.revisits(),
         )
+    }
+
+    /**
+     * The base with the shifts that are fitted beside and not named, without the [named] causes: without those, lag and gain
+     * make up for them, and what was named would have their part in its gain. Null where nothing is told of the log.
+     */
+    private fun shiftedBase(verdict: Verdict, named: List<Trial>): ModelFit? = when (verdict) {
+        is Verdict.Consistent -> last
+        is Verdict.Named, is Verdict.Ambiguous -> last.without(
+            named,
+            last.numbers[ResponseModel.TIME_CONSTANT],
+            scales,
+            last.model.steps,
+            used,
+            search.longest,
+        )
+        else -> null
     }
 
     /** A boat that keeps its speed has a probe behind it that is late by the same time everywhere: a dead time may be that. */
@@ -313,30 +330,26 @@ internal class Weighing(
         val first = forward.first
         val adjusted = Evidence.holm(first.map { it.pValue } + outlierP + water.pValue)
         val list = first.mapIndexed { i, trial ->
+            // Blocks are held out for what is worth a look.
+            val isHeldOut = trial.heldOut !== baseHeldOut
             Candidate(
                 trial.term.cause,
                 trial.term.condition,
                 report.estimates(trial.fit, listOf(trial.term)),
                 report.rmse(trial.fit),
-                trial.heldOut.rmse,
-                trial.heldOut.logLikelihood,
+                if (isHeldOut) trial.heldOut.rmse else Double.NaN,
+                if (isHeldOut) trial.heldOut.logLikelihood else Double.NaN,
                 trial.pValue,
                 adjusted[i],
                 report.predicted(trial.fit),
             ) to trial.worth
-        }
-        val numbers = size?.let {
-            listOf(
-                Estimate("probability", "", it.probability, null),
-                Estimate("size", "sensor units", it.size, null),
-            )
         }
         val change = water.rate.takeIf { it.isFinite() }?.let { rate ->
             val interval = Interval(rate - NORMAL_95 * water.error, rate + NORMAL_95 * water.error)
             listOf(Estimate("rate_per_s", "sensor units/s", rate, interval))
         }
         return list.sortedByDescending { it.second }.map { it.first } +
-            beside(Cause.OUTLIERS, numbers.orEmpty(), outlierP, adjusted[first.size]) +
+            beside(Cause.OUTLIERS, size?.numbers.orEmpty(), outlierP, adjusted[first.size]) +
             beside(Cause.TIME_VARYING_FIELD, change.orEmpty(), water.pValue, adjusted[first.size + 1])
     }
 
@@ -346,8 +359,8 @@ internal class Weighing(
         null,
         parameters,
         report.rmse(base),
-        baseHeldOut.rmse,
-        baseHeldOut.logLikelihood,
+        Double.NaN,
+        Double.NaN,
         pValue,
         adjusted,
         report.predicted(base),

@@ -1,6 +1,7 @@
 package stillwater.diagnose.response
 
 import stillwater.diagnose.Cause
+import stillwater.diagnose.Estimate
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import kotlin.math.abs
@@ -146,6 +147,13 @@ private const val BEHIND =
 
 /** How often and how far single readings are off: [probability] of each, dimensionless; [size], sensor units. */
 internal data class SpikeSize(val probability: Double, val size: Double) {
+    /** Both, for an answer. */
+    val numbers: List<Estimate>
+        get() = listOf(
+            Estimate("probability", "", probability, null),
+            Estimate("size", "sensor units", size, null),
+        )
+
     companion object {
         /** From [spikes] among [residuals]; those too small to be seen are reckoned with. */
         fun of(spikes: List<Int>, residuals: DoubleArray, spread: Double): SpikeSize? {
