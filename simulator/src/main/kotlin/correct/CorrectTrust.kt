@@ -14,7 +14,7 @@ import kotlin.math.sqrt
 internal class CorrectTrust(private val result: CorrectedLog, private val unitAfter: String) {
     private val agreement = result.agreement
     private val isContradicted = agreement.isContradicted && result.learned.stillBoat == null
-    private val isWidened = isContradicted && result.origin != SensorOrigin.GIVEN
+    private val isWidened = result.isWidenedForPasses
 
     private val isUneven = result.isWidenedForUnevenness
 
