@@ -127,6 +127,8 @@ class CorrectFiles(
         }
         putJsonObject("agreement") {
             put("crossings", result.agreement.crossings)
+            put("places", result.agreement.places)
+            put("alike", result.agreement.alike)
             put("ratio", finite(result.agreement.ratio))
             put("ratio_error", finite(result.agreement.error))
             put("lateness_s", finite(result.agreement.lateness))
@@ -157,6 +159,7 @@ class CorrectFiles(
         put("at_range_end", result.track.clipped.count { it })
         put("learned_on", result.learned.readings)
         put("blocks", result.learned.blocks)
+        put("blocks_alike", result.learned.alike)
     }
 
     private fun candidate(standing: CandidateStanding) = buildJsonObject {

@@ -173,6 +173,10 @@ internal class CorrectSummary(
         val series = result.series
         if (isFlat(series.values)) return "the readings never change"
         if (!result.log.hasPlaces) return "the log has no places"
+        if (result.learned.alike > 0) {
+            val but = if (result.agreement.crossings > 0) ", but in too few places" else ""
+            return "passes near each other go the same way at the same speed, and agree whatever the sensor's lag$but"
+        }
         val count = if (result.agreement.crossings > 0) "too few passes come" else "no pass comes"
         return result.learned.stillBoat ?: "$count near another"
     }
