@@ -43,7 +43,7 @@ class RepeatedCourseTest {
                 },
             )
         }
-        fun water(x: Double, y: Double) = waves.sumOf { (a, b, c, size) -> size * cos(a * x + b * y + c) } / sqrt(20.0)
+        fun water(x: Double, y: Double) = waves.sumOf { it[3] * cos(it[0] * x + it[1] * y + it[2]) } / sqrt(20.0)
         var shown = Double.NaN
         for (i in 0 until rows * FINE) {
             val (x, y) = place(i.toDouble() / FINE)
