@@ -25,6 +25,7 @@ public interface ResponseLearner {
  * @param groupOf group of each block. @param groups number of groups.
  * @param total sum of the scores at the logarithms of the parameters. @param scores one score a block, likewise.
  * @param longest times are not longer than that, s; infinite without an end.
+ * @param areFew whether groups are so few that their scatter alone says too little: how the scores bend counts as well.
  * @param isSharp whether the scores may tell a parameter to far less than [CURVATURE_STEP], and are smooth below it.
  */
 internal class ResponseFit(
@@ -35,6 +36,7 @@ internal class ResponseFit(
     private val scores: (DoubleArray) -> DoubleArray,
     private val isSharp: Boolean = false,
     private val longest: Double = Double.POSITIVE_INFINITY,
+    private val areFew: Boolean = false,
 ) {
     private val size = kind.parameters.size
 
@@ -85,6 +87,10 @@ internal class ResponseFit(
             groupOf.indices.sumOf { if (groupOf[it] == group) each[it] else 0.0 }
         }
         val covariance = if (size > 0) curvature.covariance() else emptyArray()
+        if (areFew && size > 0) {
+            val bend = curvature.ofCurvature()
+            for (i in 0 until size) for (j in 0 until size) covariance[i][j] += bend[i][j]
+        }
         // From groups this few a standard error is itself uncertain: by so much Student's distribution is wider.
         if (isSharp && groups > FEWEST_GROUPS) {
             val wider = (groups - 1.0) / (groups - FEWEST_GROUPS)

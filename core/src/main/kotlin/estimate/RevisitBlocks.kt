@@ -19,18 +19,35 @@ internal class RevisitBlock(val firsts: IntArray, val lengths: IntArray) {
  * A pass is a local minimum in time of the distance to the block's middle. Of the passes not much farther away than
  * passes usually are, the last before the block and the first after it are taken; where one side has none, the first
  * there that is not very far, and where it has none at all, one more of the other.
+ *
+ * Where a track goes round and round on one course ([isRepeated]) only passes count that go another way or at another speed:
+ * those that go as the block does agree with it whatever the sensor's delay, and foretell it so well that the others have
+ * no say beside them.
  */
 internal class RevisitBlocks(private val nodes: TrackNodes, private val mostBlocks: Int) {
-    private class Pass(val node: Int, val distance: Double)
+    private class Pass(val node: Int, val distance: Double, val isUnlike: Boolean)
 
-    /** The blocks in the order of time; empty where the track never comes back. */
+    /** Runs near which all passes go the same way at the same speed; known once blocks are found. */
+    var alike: Int = 0
+        private set
+
+    /** Whether these are so many that the track goes round and round on one course; known once blocks are found. */
+    var isRepeated: Boolean = false
+        private set
+
+    /** The blocks in the order of time; empty where the track never comes back, or never another way. */
     fun find(): List<RevisitBlock> {
         val starts = starts()
         val passes = starts.map { passes(it) }
         val nearest = passes.mapNotNull { found -> found.minOfOrNull { it.distance } }.sorted()
         if (nearest.isEmpty()) return emptyList()
         val reach = FARTHEST * nearest[nearest.size / 2] + ownLength(starts)
-        return starts.indices.mapNotNull { block(starts[it], passes[it], reach) }
+        val near = passes.map { found -> found.filter { it.distance <= reach } }
+        alike = near.count { found -> found.isNotEmpty() && found.none { it.isUnlike } }
+        isRepeated = FEW_ALIKE * alike > near.count { it.isNotEmpty() }
+        return starts.indices.mapNotNull { i ->
+            block(starts[i], if (isRepeated) passes[i].filter { it.isUnlike } else passes[i], reach)
+        }
     }
 
     /** Usual way along a block, m. */
@@ -63,13 +80,30 @@ internal class RevisitBlocks(private val nodes: TrackNodes, private val mostBloc
         while (i < nodes.size) {
             val near = i in start - OWN..start + BLOCK + OWN
             if (!near && isMinimum(distances, i)) {
-                found += Pass(i, distances[i])
+                found += Pass(i, distances[i], isUnlike(start + BLOCK / 2, i))
                 i += BLOCK
             } else {
                 i++
             }
         }
         return found
+    }
+
+    /** Whether the boat goes through nodes [a] and [b] in other directions, or at other speeds. */
+    private fun isUnlike(a: Int, b: Int): Boolean {
+        val (ax, ay) = velocity(a)
+        val (bx, by) = velocity(b)
+        return hypot(ax - bx, ay - by) > TrackCrossings.UNLIKE * maxOf(hypot(ax, ay), hypot(bx, by))
+    }
+
+    /** By as many nodes either way as a block has halves, m/s. */
+    private fun velocity(node: Int): Pair<Double, Double> {
+        val from = maxOf(nodes.first[node], node - BLOCK / 2)
+        var to = minOf(nodes.size - 1, node + BLOCK / 2)
+        while (nodes.first[to] != nodes.first[node]) to--
+        val time = nodes.times[to] - nodes.times[from]
+        if (!(time > 0)) return 0.0 to 0.0
+        return (nodes.xs[to] - nodes.xs[from]) / time to (nodes.ys[to] - nodes.ys[from]) / time
     }
 
     private fun isMinimum(distances: DoubleArray, node: Int): Boolean {
@@ -121,6 +155,9 @@ internal class RevisitBlocks(private val nodes: TrackNodes, private val mostBloc
         const val RUN = 20
 
         private const val FEWEST = 6
+
+        /** One run in so many that is passed the same way each time is not chance: of lawnmowers it is one in 40. */
+        private const val FEW_ALIKE = 10
         private const val OWN = 2 * BLOCK
         private const val FARTHEST = 1.6
         private const val BALANCING = 3.0

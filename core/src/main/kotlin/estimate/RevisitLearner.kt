@@ -23,15 +23,14 @@ public class RevisitLearner private constructor(
     private val nodes = TrackNodes(even, thinning)
     private val extent = listOf(nodes.xs, nodes.ys).maxOf { at -> at.max() - at.min() }
 
+    private val finder = RevisitBlocks(nodes, MOST_BLOCKS)
+
     // A boat at rest passes its own place all the time, and no pass goes another way.
-    private val found = RevisitBlocks(nodes, MOST_BLOCKS).find().takeIf { extent > 0 && it.size >= FEWEST_BLOCKS }
-        .orEmpty()
+    private val found = finder.find().takeIf { extent > 0 && it.size >= FEWEST_BLOCKS }.orEmpty()
     private val likelihood = RevisitLikelihood(nodes, found)
     private val corrected = DoubleArray(even.size)
     private val values = DoubleArray(nodes.size)
-    private val groupOf = (found.size / GROUP).coerceIn(2, MOST_GROUPS).let { count ->
-        IntArray(found.size) { (it.toLong() * count / found.size).toInt() }
-    }
+    private val grouping = RevisitGroups.of(nodes, found, finder.isRepeated)
 
     /** Longest time constant or dead time that is looked for, s: a quarter of the log's length. */
     public val longest: Double = (even.times.last() - even.times.first()) / LAGS_IN_A_LOG
@@ -41,7 +40,13 @@ public class RevisitLearner private constructor(
      */
     public val blocks: Int get() = found.size
 
-    override val groups: Int get() = (groupOf.lastOrNull() ?: -1) + 1
+    /**
+     * Number of runs beside them that say nothing, because the track goes round and round on one course: all passes go the same
+     * way at the same speed there, and agree whatever the response. 0 where such runs are few.
+     */
+    public val alike: Int get() = if (finder.isRepeated) finder.alike else 0
+
+    override val groups: Int get() = grouping.count
 
     init {
         val known = learnedScale
@@ -148,6 +153,7 @@ public class RevisitLearner private constructor(
             likelihood.take(values)
             for (block in scores.indices) scores[block] += share * likelihood.score(block, amplitude) / thinning
         }
+        for (block in scores.indices) scores[block] *= grouping.weights[block]
         return scores
     }
 
@@ -203,7 +209,15 @@ public class RevisitLearner private constructor(
     override val shortest: Double get() = LEAST_STEPS * even.step
 
     private fun fit(kind: ResponseKind) =
-        ResponseFit(kind, groupOf, groups, { total(kind, it) }, { scores(kind, it) }, longest = longest)
+        ResponseFit(
+            kind,
+            grouping.of,
+            groups,
+            { total(kind, it) },
+            { scores(kind, it) },
+            longest = longest,
+            areFew = grouping.arePlaces,
+        )
 
     public companion object {
         /** A learner for [series]; long ones are best cut to some ten thousand readings. */
@@ -246,8 +260,6 @@ public class RevisitLearner private constructor(
         private const val TARGET_NODES = 1500
         private const val MOST_BLOCKS = 150
         private const val FEWEST_BLOCKS = 8
-        private const val GROUP = 6
-        private const val MOST_GROUPS = 20
         private val LENGTHS = listOf(2.0, 6.0, 18.0)
         private val OWNS = listOf(0.03, 0.3)
         private const val FIRST_NOISE = 1e-3

@@ -77,9 +77,13 @@ internal class ScoreCurvature(private val dimensions: Int, private val groups: I
 
     private fun believed(i: Int, j: Int) = total(i, j) + beliefHessian[at(0, i, j)]
 
+    /** Covariance if the scores were all there is to know, H⁻¹. */
+    fun ofCurvature(): Array<DoubleArray> =
+        inverse(Array(dimensions) { i -> DoubleArray(dimensions) { j -> believed(i, j) } })
+
     /** Covariance of the parameters, `dimensions × dimensions`. */
     fun covariance(): Array<DoubleArray> {
-        val inverse = inverse(Array(dimensions) { i -> DoubleArray(dimensions) { j -> believed(i, j) } })
+        val inverse = ofCurvature()
         val influence = Array(groupCount) { group ->
             DoubleArray(dimensions) { i ->
                 (0 until dimensions).sumOf {

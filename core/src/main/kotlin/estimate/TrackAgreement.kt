@@ -15,9 +15,11 @@ import kotlin.math.sqrt
  * Water that changed between the passes and fixes that are off count too: from the passes alone nobody can tell. Errors
  * that all passes share, such as detail that no pass shows, do not show here.
  *
- * @property crossings number of places that were compared.
+ * @property crossings number of places that were compared. @property alike number of places that were not, because both
+ * passes go the same way at the same speed, and so agree whatever the response.
+ * @property places how many of [crossings] are different places.
  * @property ratio mean of (c₁ − c₂)² / (s₁² + s₂²), each at most [LARGEST]: 1 where the intervals hold; NaN below
- * [FEWEST] crossings.
+ * [FEWEST] crossings, or where they agree in fewer different places than that.
  * @property error standard error of [ratio], from groups of crossings that follow each other.
  * @property lateness a, s. @property spread b, sensor units.
  */
@@ -29,6 +31,8 @@ public class TrackAgreement private constructor(
     public val spread: Double,
     private val slopes: DoubleArray,
     private val times: DoubleArray,
+    public val alike: Int,
+    public val places: Int,
 ) {
     /** Whether the passes differ by more than chance and the intervals explain. */
     public val isContradicted: Boolean get() = ratio > 1 + SURE * error && (lateness > 0 || spread > 0)
@@ -101,13 +105,36 @@ public class TrackAgreement private constructor(
             val slopes = slopes(series, track.values)
             val found = TrackCrossings(series.withFreshPositions())
             if (found.size < FEWEST) {
-                return TrackAgreement(found.size, Double.NaN, Double.NaN, 0.0, 0.0, slopes, series.times)
+                val none = Double.NaN
+                return TrackAgreement(
+                    found.size,
+                    none,
+                    none,
+                    0.0,
+                    0.0,
+                    slopes,
+                    series.times,
+                    found.alike,
+                    found.places,
+                )
             }
             val pairs = Pairs(found, track, slopes)
             val ratio = pairs.ratio()
             val (late, wide) = pairs.fit()
             val error = pairs.error(ratio)
-            return TrackAgreement(found.size, ratio, error, sqrt(late), sqrt(wide), slopes, series.times)
+            // That one place agrees with itself again and again is no check; that it does not is.
+            val isShown = found.places >= FEWEST || ratio > 1 + SURE * error
+            return TrackAgreement(
+                found.size,
+                if (isShown) ratio else Double.NaN,
+                error,
+                sqrt(late),
+                sqrt(wide),
+                slopes,
+                series.times,
+                found.alike,
+                found.places,
+            )
         }
 
         /** Rates of change of [values], 1/s: over two rows either way, none over a gap. */

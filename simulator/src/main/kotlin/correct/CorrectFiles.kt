@@ -120,17 +120,20 @@ class CorrectFiles(
             putJsonArray("held_out") { scores.forEach { add(split(it)) } }
         }
         put("mean_half_width", finite(summary.halfWidth))
+        summary.laglessHalfWidth?.let { put("mean_half_width_without_lag", finite(it)) }
         summary.hintedHalfWidths?.let { (without, with) ->
             put("mean_half_width_without_hint", finite(without))
             put("mean_half_width_with_hint", finite(with))
         }
         putJsonObject("agreement") {
             put("crossings", result.agreement.crossings)
+            put("places", result.agreement.places)
+            put("alike", result.agreement.alike)
             put("ratio", finite(result.agreement.ratio))
             put("ratio_error", finite(result.agreement.error))
             put("lateness_s", finite(result.agreement.lateness))
             put("spread", finite(result.agreement.spread))
-            put("widened", result.agreement.isContradicted && result.origin != SensorOrigin.GIVEN)
+            put("widened", result.isWidenedForPasses)
             // Null where crossings show it better, or nothing was learned from passes.
             put("unevenness_s", result.learned.unevenness(result.agreement)?.let(::finite))
             put("widened_for_unevenness", result.isWidenedForUnevenness)
@@ -156,6 +159,7 @@ class CorrectFiles(
         put("at_range_end", result.track.clipped.count { it })
         put("learned_on", result.learned.readings)
         put("blocks", result.learned.blocks)
+        put("blocks_alike", result.learned.alike)
     }
 
     private fun candidate(standing: CandidateStanding) = buildJsonObject {

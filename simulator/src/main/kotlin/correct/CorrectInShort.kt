@@ -64,7 +64,10 @@ internal class CorrectInShort(
         return "Passes in opposite directions then disagree by ${percent(1 - after / before)} less."
     }
 
-    private fun interval() = "The 95 % intervals reach ${digits(halfWidth, DIGITS)}$unitAfter either way on average."
+    private fun interval(): String {
+        val held = result.unknown?.let { ", which holds lags of up to ${digits(it.first, 2)} s" }.orEmpty()
+        return "The 95 % intervals reach ${digits(halfWidth, DIGITS)}$unitAfter either way on average$held."
+    }
 
     private companion object {
         const val DIGITS = 3

@@ -113,7 +113,17 @@ internal class CorrectSummary(
 
     private fun halfWidth(track: CorrectedTrack) = track.meanHalfWidth
 
+    /** The same if a sensor of which nothing is known has no lag, sensor units; null where something is known. */
+    val laglessHalfWidth: Double? get() = result.unknown?.second?.let(::halfWidth)
+
     private fun interval(): String {
+        result.unknown?.let { (lag, lagless) ->
+            return "95 %, ${digits(
+                halfWidth(lagless),
+                3,
+            )}$unitAfter either way on average ${trust.words}; as written, " +
+                "for any lag of up to ${digits(lag, 2)} s, ${digits(halfWidth, 3)}$unitAfter"
+        }
         val other = hintedHalfWidths?.let { (without, with) ->
             val words = if (holdsHint) "if there is no slow path" else "with the slow path that the log hints at"
             " (${digits(if (holdsHint) without else with, 3)}$unitAfter $words)"
@@ -163,6 +173,10 @@ internal class CorrectSummary(
         val series = result.series
         if (isFlat(series.values)) return "the readings never change"
         if (!result.log.hasPlaces) return "the log has no places"
+        if (result.learned.alike > 0) {
+            val but = if (result.agreement.crossings > 0) ", but in too few places" else ""
+            return "passes near each other go the same way at the same speed, and agree whatever the sensor's lag$but"
+        }
         val count = if (result.agreement.crossings > 0) "too few passes come" else "no pass comes"
         return result.learned.stillBoat ?: "$count near another"
     }
@@ -247,6 +261,12 @@ internal class CorrectSummary(
                     "the log leaves ${different.size} responses open " +
                         different.joinToString(prefix = "(", postfix = "): ") { it.kind.label } +
                         "the intervals cover them all; sensor.json holds the most likely",
+                )
+            }
+            result.unknown?.let { (lag, lagless) ->
+                add(
+                    "intervals hold a sensor with any lag of up to ${digits(lag, 2)} s, no slower one; without lag " +
+                        "they are ${digits(halfWidth(lagless), 2)}$unitAfter either way",
                 )
             }
             result.learned.fault?.let { fault ->

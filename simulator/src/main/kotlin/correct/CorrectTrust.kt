@@ -14,7 +14,7 @@ import kotlin.math.sqrt
 internal class CorrectTrust(private val result: CorrectedLog, private val unitAfter: String) {
     private val agreement = result.agreement
     private val isContradicted = agreement.isContradicted && result.learned.stillBoat == null
-    private val isWidened = isContradicted && result.origin != SensorOrigin.GIVEN
+    private val isWidened = result.isWidenedForPasses
 
     private val isUneven = result.isWidenedForUnevenness
 
@@ -37,9 +37,15 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
         else -> "${agreement.crossings} places"
     }
 
+    private fun different() = if (agreement.places == 1) "1 place" else "${agreement.places} places"
+
     /** How seldom the boat was where it had been; legs beside each other are different places. */
     private fun crossings() = when {
         !result.log.hasPlaces -> "the log has no places"
+        agreement.alike >= TrackAgreement.FEWEST ->
+            "where passes come to the same place again they go the same way at the same speed, and agree whatever " +
+                "the sensor's lag, but in ${different()}"
+        agreement.places < agreement.crossings -> "the boat's track crosses itself in the same ${different()} only"
         result.log.oneDimensional -> "later passes go through ${places()} again"
         agreement.crossings == 0 -> "the boat's track nowhere crosses itself"
         else -> "the boat's track crosses itself in ${places()} only"
@@ -55,6 +61,7 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
             uneven(),
             wandered(),
             unchecked(),
+            alike(),
             limited(),
         )
 
@@ -150,6 +157,14 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
             "${zero()}, which looks like water that differs from leg to leg; nor all of a lag that changes along the " +
             "track or of a rate limit that was not recognised. " +
             "A few legs across the others would check them"
+    }
+
+    /** A course that is sailed again and again. */
+    private fun alike(): String? {
+        val alike = result.learned.alike.takeIf { it > 0 && result.origin == SensorOrigin.REVISITS } ?: return null
+        return "in $alike of ${alike + result.learned.blocks} runs of the track all passes go the same way at the " +
+            "same speed, and agree whatever the sensor's lag: it was learned, and its interval is, from the few " +
+            "places that are passed another way. Legs across the course would tell more"
     }
 
     /** A rate that is reached often hides what else the sensor does. */

@@ -55,6 +55,8 @@ enum class SensorOrigin(val label: String) {
  * the sensor's state.
  * @param conditions what the log holds beside the readings, by name.
  * @property bridged what was done where their numbers are missing, one sentence each.
+ * @property unknown longest lag, s, that intervals hold of a sensor of which nothing is known, and the track if it has none;
+ * null where something is known.
  */
 class CorrectedLog internal constructor(
     val log: SurveyLog,
@@ -73,6 +75,7 @@ class CorrectedLog internal constructor(
     internal val unusable: UnusableReadings,
     private val conditions: Map<String, DoubleArray> = emptyMap(),
     internal val bridged: List<String> = emptyList(),
+    internal val unknown: Pair<Double, CorrectedTrack>? = null,
 ) {
     /** Where the sensor comes from. */
     val origin: SensorOrigin get() = learned.origin
@@ -91,6 +94,10 @@ class CorrectedLog internal constructor(
 
     /** Whether intervals were widened for delays that differ along the track: where no crossing shows them better. */
     internal val isWidenedForUnevenness: Boolean get() = learned.isUneven(agreement)
+
+    /** Whether intervals were widened by what passes disagree: not a given sensor's, nor for "passes" of a boat that lay still. */
+    internal val isWidenedForPasses: Boolean
+        get() = agreement.isContradicted && learned.stillBoat == null && origin != SensorOrigin.GIVEN
 
     private val resolution: Double = resolution(statistics, series)
 
@@ -193,12 +200,7 @@ class CorrectedLog internal constructor(
             val unusable = UnusableReadings.of(series, resolution, undone?.range ?: UndoableSensor.ENDLESS)
             val references = References.of(series, shown, unusable, isLearned = hasReference && undone == null)
             val tried = when {
-                undone != null -> Learned(
-                    SensorOrigin.GIVEN,
-                    null,
-                    listOf(LikelyResponse(listOf(undone.response), 1.0)),
-                    given.stages,
-                )
+                given != null -> given(given)
                 hasReference -> SensorLearning.byReference(log, series, references, unusable)
                 else -> SensorLearning.byRevisits(series, unusable, log.frame != null)
             }
@@ -215,7 +217,9 @@ class CorrectedLog internal constructor(
             // A given sensor's intervals are the giver's. All others must hold a reference that is there, learned from or not.
             val isMeasured = hasReference && learned.origin != SensorOrigin.GIVEN
             val margin = if (isMeasured) ReferenceMargin.of(series, agreed, references.measured) else null
-            val unhinted = margin?.widened(agreed) ?: agreed
+            val lagless = margin?.widened(agreed) ?: agreed
+            val unknown = UnknownLag.of(series, learned, isMeasured = margin?.isEnough == true)
+            val unhinted = unknown?.held(lagless) { corrected(learned, it) } ?: lagless
             return CorrectedLog(
                 log,
                 pass,
@@ -235,7 +239,13 @@ class CorrectedLog internal constructor(
                 unusable,
                 others,
                 bridged + references.faults,
+                unknown?.let { it.longest to lagless },
             )
+        }
+
+        private fun given(sensor: SensorSpec): Learned {
+            val likely = LikelyResponse(listOf(UndoableSensor.of(sensor).response), 1.0)
+            return Learned(SensorOrigin.GIVEN, null, listOf(likely), sensor.stages)
         }
 
         /** Puts all readings of [log] into [rows], with the conditions [names], and [scan]. */

@@ -40,6 +40,7 @@ import kotlin.random.Random
  * reference was not learned from, or null. @property isPart whether usable readings were too many to learn on all.
  * @property scatter by how much delays of single runs scatter beyond what fixes may be off, s, where passes tell; once
  * asked for, because it takes a while.
+ * @property alike runs that tell nothing, because all passes near them go the same way at the same speed.
  * @property stillBoat why passes of the usable readings teach nothing, as the boat lay still; null where it did not.
  */
 internal data class Learned(
@@ -55,6 +56,7 @@ internal data class Learned(
     val hinted: LikelyResponse? = null,
     val isPart: Boolean = false,
     val stillBoat: String? = null,
+    val alike: Int = 0,
     private val scatter: Lazy<Double>? = null,
 ) {
     /** What is undone of [stages] before the [likely] responses are: of a given sensor all that is not in its response. */
@@ -136,7 +138,7 @@ internal object SensorLearning {
         if (rate.isFinite()) return byRate(series, rate)
         val (part, learner) = learnable(series)
         val choice = choice(learner, ResponseKind.entries - ResponseKind.SLEW) { learner.copy() }
-            ?: return nothing(part.size)
+            ?.takeUnless { learner.alike > 0 && isUnknown(it) } ?: return nothing(part.size).copy(alike = learner.alike)
         val stages = choice.first.response.stages(series.referenceSpeed)
         return Learned(
             SensorOrigin.REVISITS,
@@ -147,8 +149,15 @@ internal object SensorLearning {
             learner.blocks,
             hinted = choice.likelyHint(),
             isPart = part.size < series.size,
+            alike = learner.alike,
             scatter = lazy { learner.unevenness(choice.first.response) },
         )
+    }
+
+    /** Whether [choice] leaves a lag more open than it is where nothing is known. */
+    private fun isUnknown(choice: ResponseChoice): Boolean {
+        val lag = choice.standings.first { it.candidate.kind == ResponseKind.FIRST_ORDER }.candidate.interval(0)
+        return lag.endInclusive > maxOf(UnknownLag.USUAL, ReferenceLearner.MOST_FACTOR * lag.start)
     }
 
     /** As much of [series] as passes can be learned from, and what learns from it. */

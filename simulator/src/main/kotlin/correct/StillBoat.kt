@@ -17,6 +17,15 @@ internal object StillBoat {
     private const val FARTHER = 2.0
     private val STEPS = listOf(7, 20, 50)
 
+    /**
+     * Times after which a boat that goes anywhere is far from where it was, s, however often its place is written: ten rows a
+     * second of a slow boat are less apart than its fixes scatter.
+     */
+    private val TIMES = listOf(60.0, 200.0)
+
+    /** A boat swings so far about its anchor, m. */
+    private const val SWING = 10.0
+
     /** Why [series], from fixes on the globe if [hasFixes], is that of a boat that lay still; null where it is not. */
     fun why(series: TrackSeries, hasFixes: Boolean): String? = when {
         isFlat(series.xs) && isFlat(series.ys) -> "the boat never moves"
@@ -28,10 +37,13 @@ internal object StillBoat {
         else -> null
     }
 
-    private fun isWithin(series: TrackSeries): Boolean {
+    private fun isWithin(series: TrackSeries): Boolean = radius(series) < WANDER
+
+    /** How far from the middle 95 % of the places lie, m. */
+    private fun radius(series: TrackSeries): Double {
         val x = series.xs.sorted()[series.size / 2]
         val y = series.ys.sorted()[series.size / 2]
-        return quantile(DoubleArray(series.size) { hypot(series.xs[it] - x, series.ys[it] - y) }, MOST) < WANDER
+        return quantile(DoubleArray(series.size) { hypot(series.xs[it] - x, series.ys[it] - y) }, MOST)
     }
 
     private fun isJitter(series: TrackSeries): Boolean {
@@ -39,8 +51,12 @@ internal object StillBoat {
         val one = distance(series, 1)
         // Rows that far apart are sailed, to and fro or from station to station: no fixes scatter so.
         if (one >= 2 * WANDER) return false
-        return STEPS.all { distance(series, it) < FARTHER * one }
+        return STEPS.all { distance(series, it) < FARTHER * one } && !isSailed(series, one)
     }
+
+    /** Whether the boat gets away from its places in a minute or three, farther than they scatter from row to row, [one]. */
+    private fun isSailed(series: TrackSeries, one: Double) =
+        radius(series) > SWING + one && TIMES.any { distanceAfter(series, it) > maxOf(FARTHER * one, SWING) }
 
     private fun distance(series: TrackSeries, rows: Int) = quantile(
         DoubleArray(series.size - rows) {
@@ -48,6 +64,16 @@ internal object StillBoat {
         },
         LARGE,
     )
+
+    /** The same for the first rows that are [seconds] later; 0 where the log is too short for any. */
+    private fun distanceAfter(series: TrackSeries, seconds: Double): Double {
+        var later = 0
+        val distances = (0 until series.size).mapNotNull { i ->
+            while (later < series.size && series.times[later] < series.times[i] + seconds) later++
+            if (later == series.size) null else hypot(series.xs[later] - series.xs[i], series.ys[later] - series.ys[i])
+        }
+        return if (distances.isEmpty()) 0.0 else quantile(distances.toDoubleArray(), LARGE)
+    }
 
     private fun quantile(numbers: DoubleArray, share: Double): Double {
         numbers.sort()

@@ -2,6 +2,8 @@ package stillwater.correct
 
 import stillwater.estimate.TrackSeries
 import kotlin.math.abs
+import kotlin.math.cos
+import kotlin.math.sin
 import kotlin.math.sqrt
 import kotlin.random.Random
 import kotlin.test.Test
@@ -42,10 +44,31 @@ class StillBoatTest {
         fun spiral(radius: Double) = { i: Int ->
             val angle = 0.02 * i
             val r = radius * sqrt((i * 7 % 600) / 600.0 * 0.1 + 0.9)
-            r * kotlin.math.cos(angle) to r * kotlin.math.sin(angle)
+            r * cos(angle) to r * sin(angle)
         }
         assertContains(why(hasFixes = true, spiral(4.5)).orEmpty(), "lie within 5 m")
         assertNull(why(hasFixes = true, spiral(8.0)))
         assertNull(why(hasFixes = false, spiral(4.5)))
+    }
+
+    /** Ten rows a second at 0.5 m/s: 50 rows are 2.5 m, fixes scatter by as much from row to row. */
+    @Test
+    fun aSlowBoatWithManyRowsIsSailedAndOneThatSwingsAtItsAnchorIsNot() {
+        fun why(place: (Double) -> Pair<Double, Double>): String? {
+            val noise = java.util.Random(5)
+            val places = List(12_000) { i ->
+                val (x, y) = place(i / 10.0)
+                x + 1.5 * noise.nextGaussian() to y + 1.5 * noise.nextGaussian()
+            }
+            val times = DoubleArray(places.size) { it / 10.0 }
+            val xs = DoubleArray(places.size) { places[it].first }
+            val ys = DoubleArray(places.size) { places[it].second }
+            return StillBoat.why(TrackSeries(times, xs, ys, DoubleArray(places.size)), hasFixes = false)
+        }
+        assertNull(why { time -> abs(time % 160 / 2 - 40) to time / 30 })
+        for (radius in listOf(0.0, 6.0, 10.0)) {
+            val swinging = why { radius * sin(it / 60) to radius * cos(it / 60) }
+            assertContains(swinging.orEmpty(), "no farther in 50 rows")
+        }
     }
 }
