@@ -82,8 +82,8 @@ class Diagnosed(
         return result.verdict.ambiguity.filter { Cause.TIME_VARYING_FIELD in it }.mapNotNull { set ->
             val own = set.firstOrNull { cause -> alone(cause).any { it.name != TIME_CONSTANT && it.name in held } }
             own?.let {
-                "extended-sensor.json holds the ${it.label}, though the water may have changed instead: what is given " +
-                    "that file takes it for the sensor's."
+                "extended-sensor.json holds the ${it.label}, though the water may have changed instead: " +
+                    "what is given that file takes it for the sensor's."
             }
         }
     }

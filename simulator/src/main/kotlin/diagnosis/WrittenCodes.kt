@@ -83,7 +83,7 @@ internal class CodedRows(read: LogColumns, quantity: String, reference: String?)
     private fun words(codes: List<Double>, column: String, rows: BooleanArray): String? {
         if (codes.isEmpty()) return null
         val numbers = codes.joinToString(" or ") { it.toBigDecimal().stripTrailingZeros().toPlainString() }
-        return "the column $column has $numbers in ${rows.count { it }} rows, far beyond all others: taken for what is " +
-            "written where there is no number, and left out"
+        return "the column $column has $numbers in ${rows.count { it }} rows, far beyond all others: " +
+            "taken for what is written where there is no number, and left out"
     }
 }

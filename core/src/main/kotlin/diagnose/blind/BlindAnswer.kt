@@ -89,13 +89,7 @@ internal class BlindAnswer(
         val leftOut = unknown.mapTo(HashSet()) { it.cause }
         val sensor = ExtendedSensor(asFit(named), size, isRounded, leftOut, range = range)
         val extended = onLog(sensor.spec("extended")).takeIf { isNamed }
-        val tried = candidates(first).map { candidate ->
-            when {
-                candidate.cause == Cause.SATURATION && range != null -> ended(candidate, range, still)
-                isRounded -> candidate.surelyRounded()
-                else -> candidate
-            }
-        } + beside(first.changed, first.causes.size + 1)
+        val tried = candidates(first, range, isRounded, still)
         // Of what was only tried nobody need know that it ended at a bound.
         estimates.bounds.clear()
         val lagging = assessment(base)
@@ -280,6 +274,23 @@ internal class BlindAnswer(
     private fun assessed(state: BlindState) = assessed.getOrPut(state) { BlindAssessed(search, state) }
 
     private fun heldOut(state: BlindState) = assessed(state).heldOut
+
+    /**
+     * All that was tried on the [first] model, the likeliest first: with the [range] at whose ends readings stand [still],
+     * where that is named, and with rounding as sure as these show it if it [isRounded].
+     */
+    private fun candidates(
+        first: BlindRound,
+        range: SensorStage.Range?,
+        isRounded: Boolean,
+        still: StillReadings,
+    ): List<Candidate> = candidates(first).map { candidate ->
+        when {
+            candidate.cause == Cause.SATURATION && range != null -> ended(candidate, range, still)
+            isRounded -> candidate.surelyRounded()
+            else -> candidate
+        }
+    } + beside(first.changed, first.causes.size + 1)
 
     private fun candidates(first: BlindRound): List<Candidate> {
         val state = first.state

@@ -36,7 +36,8 @@ internal object Manoeuvres {
         val ofZero = setOf(Cause.DRIFT, Cause.OFFSET_STEPS, Cause.CROSS_SENSITIVITY).intersect(set)
         if (Cause.TIME_VARYING_FIELD in set && ofZero.isNotEmpty()) {
             // However often a boat comes back, its sensor and the water have changed together.
-            parts += "measure a sample that stays as it is, or beside a second probe, at the start, in between and at the end"
+            parts +=
+                "measure a sample that stays as it is, or beside a second probe, at the start, in between and at the end"
         } else if (Cause.TIME_VARYING_FIELD in set || ofZero.any { it != Cause.CROSS_SENSITIVITY }) {
             parts += "come back to the same place every few minutes"
         }
