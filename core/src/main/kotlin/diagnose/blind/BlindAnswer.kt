@@ -10,7 +10,6 @@ import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
 import stillwater.diagnose.evidence.CoarseRounding
-import stillwater.diagnose.evidence.Evidence
 import stillwater.diagnose.evidence.Manoeuvres
 import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.evidence.StillReadings
@@ -286,11 +285,11 @@ internal class BlindAnswer(
         still: StillReadings,
     ): List<Candidate> = candidates(first).map { candidate ->
         when {
-            candidate.cause == Cause.SATURATION && range != null -> ended(candidate, range, still)
+            candidate.cause == Cause.SATURATION && range != null -> candidate.ended(range, still)
             isRounded -> candidate.surelyRounded()
             else -> candidate
         }
-    } + beside(first.changed, first.causes.size + 1)
+    } + outliers.beside(rmse(last.residuals), first)
 
     private fun candidates(first: BlindRound): List<Candidate> {
         val state = first.state
@@ -325,28 +324,6 @@ internal class BlindAnswer(
         }
         return listOfNotNull(givenCandidate()) + list.sortedByDescending { it.second }.map { it.first }
     }
-
-    /** What changes nothing in what the model shows: wild readings, and water that changes, worth [changed], of so many [tried]. */
-    private fun beside(changed: Double, tried: Int): List<Candidate> {
-        val chances = listOf(Cause.OUTLIERS to outliers.pValue, Cause.TIME_VARYING_FIELD to Evidence.pValue(changed, 1))
-        return chances.map { (cause, p) ->
-            val numbers = outliers.size()?.takeIf { cause == Cause.OUTLIERS }?.numbers.orEmpty()
-            val adjusted = minOf(p * tried, 1.0)
-            val rest = rmse(last.residuals)
-            Candidate(cause, null, numbers, rest, Double.NaN, Double.NaN, p, adjusted, last.shown)
-        }
-    }
-
-    /** The saturation that was tried as [candidate], whose ends are those of [range] at which readings stand [still]. */
-    private fun ended(candidate: Candidate, range: SensorStage.Range, still: StillReadings) = candidate.with(
-        candidate.parameters.filter { it.name == "time_constant_s" } +
-            listOf("lower" to range.lower, "upper" to range.upper).mapNotNull { (name, end) ->
-                end?.let { Estimate(name, "sensor units", it, null) }
-            },
-        candidate.predicted,
-        still.atEnd,
-        still.atEnd,
-    )
 
     private fun givenCandidate(): Candidate? = given?.state?.let {
         val free = assessment(base)
