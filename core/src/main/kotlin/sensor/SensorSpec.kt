@@ -45,6 +45,9 @@ public data class SensorSpec(val name: String, val stages: List<SensorStage>) {
         )
     }
 
+    /** Names of the conditions that what it shows depends on, such as [stillwater.model.Conditions.SPEED]. */
+    public val conditions: Set<String> get() = stages.flatMapTo(LinkedHashSet()) { it.conditions }
+
     /** The JSON form, indented. */
     public fun toJson(): String = FORMAT.encodeToString(serializer(), this)
 

@@ -19,6 +19,9 @@ public sealed interface SensorStage {
     /** What this stage shows of [truth] once it has settled and before time wears on it, sensor units. */
     public fun settled(truth: Double): Double = truth
 
+    /** Names of the conditions that what it does depends on; of a lag those with which its time constant changes. */
+    public val conditions: Set<String> get() = emptySet()
+
     /** [FirstOrderLag] with [timeConstant] τ, s. */
     @Serializable
     @SerialName("first-order-lag")
@@ -146,6 +149,8 @@ public sealed interface SensorStage {
 
         override fun build(initial: Double, random: Random): SensorModel =
             ConditionedLag(TimeConstant.ofFlow(timeConstant, referenceSpeed, exponent), initial)
+
+        override val conditions: Set<String> get() = ofChanges(exponent, 0.0)
     }
 
     /**
@@ -165,6 +170,8 @@ public sealed interface SensorStage {
 
         override fun build(initial: Double, random: Random): SensorModel =
             ConditionedLag(TimeConstant.ofTemperature(timeConstant, referenceTemperature, relativeChange), initial)
+
+        override val conditions: Set<String> get() = ofChanges(0.0, relativeChange)
     }
 
     /**
@@ -194,6 +201,8 @@ public sealed interface SensorStage {
             val both = TimeConstant { (flow.under(it) * warmth.under(it)).coerceIn(Double.MIN_VALUE, Double.MAX_VALUE) }
             return CombinedLag(both, risingOverFalling, slowOverFast, slowShare, initial)
         }
+
+        override val conditions: Set<String> get() = ofChanges(exponent, relativeChange)
     }
 
     /** [GainOffset] with [gain], dimensionless, and [offset], sensor units. */
@@ -221,6 +230,8 @@ public sealed interface SensorStage {
 
         override fun build(initial: Double, random: Random): SensorModel =
             CrossSensitivity(condition, reference, coefficient)
+
+        override val conditions: Set<String> get() = if (coefficient == 0.0) emptySet() else setOf(condition)
     }
 
     /** [Drift] at [rate], sensor units/s. */
@@ -282,3 +293,9 @@ public sealed interface SensorStage {
         override fun build(initial: Double, random: Random): SensorModel = Outliers(probability, size, random)
     }
 }
+
+/** What a lag depends on that changes with the speed by [exponent] and with the temperature by [relativeChange], 1/°C. */
+private fun ofChanges(exponent: Double, relativeChange: Double): Set<String> = setOfNotNull(
+    Conditions.SPEED.takeIf { exponent != 0.0 },
+    Conditions.TEMPERATURE.takeIf { relativeChange != 0.0 },
+)

@@ -4,6 +4,7 @@ import stillwater.model.Actuation
 import kotlin.math.PI
 import kotlin.math.abs
 import kotlin.math.cos
+import kotlin.math.hypot
 import kotlin.math.sin
 import kotlin.math.sqrt
 
@@ -92,6 +93,10 @@ public class BoatDynamics(public val hull: Hull = Hull(), x: Double = 0.0, y: Do
 
     /** Velocity of the wind, north, m/s. */
     public var windY: Double = 0.0
+
+    /** How fast water passes the hull, m/s, at least 0: the [surge] and what the wind adds to it, without the current. */
+    public val speedThroughWater: Double
+        get() = hypot(surge * cos(heading) + hull.windage * windX, surge * sin(heading) + hull.windage * windY)
 
     /** Lets [seconds] s pass under [actuation]; not above 0 or not finite passes none. */
     public fun advance(seconds: Double, actuation: Actuation) {

@@ -52,7 +52,7 @@ public data class PoseSpec(
 /**
  * A whole virtual boat.
  *
- * @property sensor the probe.
+ * @property sensor the probe, which is told the speed through the water ([VirtualBoat.CONDITIONS]).
  * @property hull boat and thrusters.
  * @property board electronics.
  * @property link between phone and board.
@@ -109,6 +109,7 @@ public class VirtualBoat(
     public val link: VirtualLink = VirtualLink(spec.link, Random(random.nextLong()))
 
     private val probe: SensorModel = probe()
+    private val followsSpeed = Conditions.SPEED in spec.sensor.conditions
     private var reading = Double.NaN
 
     /** The electronics, which may be reset and whose battery may sag. */
@@ -162,12 +163,16 @@ public class VirtualBoat(
     private fun tick() {
         ticks++
         dynamics.advance(TICK, if (hasMotorPower) board.actuation else REST)
-        reading = probe.step(field.truth(dynamics.x, dynamics.y, time), TICK, Conditions.NONE)
+        reading = probe.step(field.truth(dynamics.x, dynamics.y, time), TICK, conditions())
         link.advance(TICK)
         board.receive(inbound, 0, link.board.read(inbound))
         board.advance(TICK)
         if (time.seconds >= (fixes + 1) * spec.pose.fixPeriod - ROUNDING) locate()
     }
+
+    /** Nothing is made anew for a probe that does not ask. */
+    private fun conditions() =
+        if (followsSpeed) Conditions(mapOf(Conditions.SPEED to dynamics.speedThroughWater)) else Conditions.NONE
 
     /** b ← b e^(−T/τ) + σ √(1 − e^(−2T/τ)) n: a first-order Gauss-Markov process. */
     private fun locate() {
@@ -193,6 +198,9 @@ public class VirtualBoat(
     public companion object {
         /** Step of everything in it, s. */
         public const val TICK: Double = 0.02
+
+        /** The conditions that its probe can follow; any other is unknown to it. */
+        public val CONDITIONS: Set<String> = setOf(Conditions.SPEED)
 
         private const val ROUNDING = 1e-9
 

@@ -40,7 +40,7 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
         val warnings = directory.writeFigures((figures.map { it.name } + more.map { it.first }).zip(drawn))
         val ofFields = figures.map { it.field }.zip(drawn)
         directory.write("report.html", BenchmarkReport(result, ofFields, command, drawn.drop(figures.size)).render())
-        return warnings + listOfNotNull(beyond()) + BudgetTable.warnings(result)
+        return SensorCautions.of(result.settings) + warnings + listOfNotNull(beyond()) + BudgetTable.warnings(result)
     }
 
     /** A warning where errors are beyond all numbers, as with a sensor of enormous gain; null where none is. */

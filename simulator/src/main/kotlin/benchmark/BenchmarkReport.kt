@@ -33,6 +33,7 @@ internal class BenchmarkReport(
         page.summary("Environments", "${settings.environments} of each field")
         page.summary("Sensor", settings.sensor.name)
         page.summary("Moves", "${settings.moves}, ${settings.samplesPerMove} readings each")
+        SensorCautions.of(settings).forEach(page::warning)
         for ((field, figure) in figures) {
             page.section(figure.title) {
                 figure(figure, CAPTION)

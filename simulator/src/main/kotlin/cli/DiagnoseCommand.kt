@@ -110,7 +110,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
                 read.channels(result) { progress.advance((it * WHOLE).toLong()) }
             }
             val diagnosed = Diagnosed(read, result, worth(read, result), isGiven(given, result), channels, unit)
-            val drawing = DiagnosisFiles(diagnosed, commandLine(), numbersOnly).write(directory)
+            val drawing = DiagnosisFiles(diagnosed, commandLine(), own, numbersOnly).write(directory)
             val written = directory.commit()
             when {
                 json -> echo(DiagnosisJson.text(diagnosed).trimEnd())

@@ -21,6 +21,7 @@ import stillwater.mission.Quantity
 import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
 import stillwater.report.counted
+import stillwater.world.SimulatedConditions
 import stillwater.world.VirtualWorld
 import stillwater.world.WorldSite
 import java.nio.file.Path
@@ -68,6 +69,7 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
         // Written at the end: where it cannot be, nobody wants to sail for hours first.
         out?.let { OutputDirectory(Path.of(it)).close() }
         val world = VirtualWorld(boat.settings(), WorldSite.of(spec))
+        SimulatedConditions.missing(world.sensor)?.let { echo("warning: $it", err = true) }
         try {
             (if (pty) PseudoTerminal() else TcpServedWire(host, checkNotNull(tcp))).use { wire ->
                 PhoneServer(TcpServedWire(host, phonePort)).use { phone -> serve(world, wire, phone) }

@@ -1,6 +1,7 @@
 package stillwater.correct
 
 import stillwater.estimate.UndoableSensor
+import stillwater.sensor.SensorStage
 import stillwater.survey.LagShift
 import stillwater.survey.Wording.Companion.digits
 import stillwater.survey.Wording.Companion.duration
@@ -70,25 +71,53 @@ internal class CorrectCautions(private val result: CorrectedLog, private val uni
                 "foretold from the others, with an interval that reaches to the reading"
         }
         return "$outlying readings stand out from those around them as no water here does and are left out: their " +
-            "rows are foretold from the others, with intervals that reach to the readings"
+            "rows are foretold from the others, with intervals that reach to the readings$hidden"
     }
+
+    /** Of a sensor that is known to have outliers. */
+    private val hidden: String
+        get() = if (result.origin == SensorOrigin.GIVEN && result.spec.stages.any { it is SensorStage.Outlying }) {
+            ". Smaller ones that do not stand out count as noise and widen all intervals"
+        } else {
+            ""
+        }
+
+    /** How many rows are less certain than the others, in a few words with a comma before them; empty where none are. */
+    val inShort: String
+        get() {
+            val atEnd = result.track.clipped.count { it }
+            val outlying = result.track.outlying.count { it }
+            return listOfNotNull(
+                ", $atEnd at an end of the sensor's range".takeIf { atEnd > 0 },
+                ", $outlying left out as outliers".takeIf { outlying > 1 }
+                    ?: ", 1 left out as an outlier".takeIf { outlying == 1 },
+            ).joinToString("")
+        }
 
     private fun atEnd(side: Int, end: String, open: String): String? {
         val ends = result.unusable.ends
         val rows = ends.indices.filter { ends[it].toInt() == side }
         if (rows.isEmpty()) return null
-        val at = digits(result.series.values[rows.first()])
-        val what = if (isEndGiven(side)) "are at the $end end" else "look like the $end end"
+        // A reading may be beyond a given end by what noise there is behind it.
+        val given = endGiven(side)
+        val at = digits(given ?: result.series.values[rows.first()])
+        val what = if (given != null) "are at the $end end" else "look like the $end end"
         return "${rows.size} of ${ends.size} readings $what of the sensor's range ($at$unitAfter): " +
             "they were not learned from, and of the water there they say one side only, so that the intervals are " +
             "wide $open there and as long after as the sensor remembers"
     }
 
-    /** Whether the sensor was given with an end of its range on [side]; else it was looked for in the readings. */
-    private fun isEndGiven(side: Int): Boolean {
-        if (result.origin != SensorOrigin.GIVEN) return false
+    /**
+     * The end on [side] of the range of the sensor that was given, sensor units; null without one, and where no reading comes
+     * to it: another was then found in the readings.
+     */
+    private fun endGiven(side: Int): Double? {
+        if (result.origin != SensorOrigin.GIVEN) return null
         val range = UndoableSensor.of(result.spec).range
-        return (if (side > 0) range.endInclusive else range.start).isFinite()
+        val end = if (side > 0) range.endInclusive else range.start
+        val within = RangeEnds.beyondDoubt(result.spec).let { if (side > 0) it.endInclusive else it.start }
+        val step = result.statistics.resolution.takeIf { it.isFinite() } ?: 0.0
+        return end.takeIf { it.isFinite() && result.series.values.any { side * (it - within) >= -step / 2 } }
     }
 
     private fun play(): String? {

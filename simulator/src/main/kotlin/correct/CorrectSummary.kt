@@ -128,7 +128,16 @@ internal class CorrectSummary(
             val words = if (holdsHint) "if there is no slow path" else "with the slow path that the log hints at"
             " (${digits(if (holdsHint) without else with, 3)}$unitAfter $words)"
         }.orEmpty()
-        return "95 %, ${digits(halfWidth, 3)}$unitAfter either way on average$other; ${trust.words}"
+        return "95 %, ${digits(halfWidth, 3)}$unitAfter either way on average${within()}$other; ${trust.words}"
+    }
+
+    /** Where some rows are at an end of the range the mean is hardly that of any row. */
+    private fun within(): String {
+        val track = result.track
+        val rows = track.values.indices.filterNot { track.clipped[it] || track.outlying[it] }
+        if (rows.isEmpty() || track.clipped.none { it }) return ""
+        val mean = rows.sumOf { (track.upper[it] - track.lower[it]) / 2 } / rows.size
+        return ", ${digits(mean, 3)}$unitAfter within the sensor's range"
     }
 
     private val holdsHint: Boolean get() = result.track === result.hinted
@@ -229,7 +238,7 @@ internal class CorrectSummary(
 
     private fun rows(): String {
         val skipped = result.pass.skipped.entries.joinToString("") { "; ${it.value} ${it.key}" }
-        return "${result.series.size} corrected$skipped"
+        return "${result.series.size} corrected${cautions.inShort}$skipped"
     }
 
     private fun hint(twoPaths: CandidateResponse): String {

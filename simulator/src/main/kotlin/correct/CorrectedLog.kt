@@ -197,7 +197,7 @@ class CorrectedLog internal constructor(
             SquareReach.require(log, series.values, shown)
             val statistics = scan.statistics()
             val resolution = resolution(statistics, series)
-            val unusable = UnusableReadings.of(series, resolution, undone?.range ?: UndoableSensor.ENDLESS)
+            val unusable = UnusableReadings.of(series, resolution, RangeEnds.beyondDoubt(given))
             val references = References.of(series, shown, unusable, isLearned = hasReference && undone == null)
             val tried = when {
                 given != null -> given(given)

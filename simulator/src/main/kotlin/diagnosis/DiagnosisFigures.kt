@@ -5,6 +5,7 @@ import stillwater.diagnose.Cause
 import stillwater.diagnose.Revisits
 import stillwater.diagnose.Verdict
 import stillwater.estimate.TrackSeries
+import stillwater.io.SurveyLog
 import stillwater.model.Conditions
 import stillwater.plot.Figure
 import stillwater.plot.LinePlot
@@ -12,6 +13,7 @@ import stillwater.plot.Mark
 import stillwater.plot.Series
 import stillwater.plot.TrackMap
 import stillwater.plot.drawConcurrently
+import stillwater.survey.Wording.Companion.digits
 import kotlin.math.hypot
 import kotlin.math.sqrt
 
@@ -20,8 +22,10 @@ internal class DiagnosisFigure(val name: String, val figure: Figure, val caption
 
 /**
  * Draws a [Diagnosed] log: predicted against measured, the residuals against all that they may depend on, the causes.
+ *
+ * @param survey the log as it was read, which knows whether it has one coordinate only and what that is called.
  */
-internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
+internal class DiagnosisFigures(private val diagnosed: Diagnosed, private val survey: SurveyLog) {
     private val columns = diagnosed.log.columns
     private val result = diagnosed.result
     private val quantity = diagnosed.quantity
@@ -32,6 +36,10 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
     private val residual = DoubleArray(n) { columns.values[it] - result.baseline.predicted[it] }
     private val stride = maxOf(1, n / MOST_POINTS)
     private val track by lazy { TrackSeries(columns.times, columns.x, columns.y, columns.values) }
+    private val means by lazy {
+        val base = result.baseline
+        ResidualMeans(residual, time, CorrelatedNoise(base.noiseSpread, base.noiseShare, base.noiseTime))
+    }
     private val moves = hypot(spread(columns.x), spread(columns.y)) > 1e-9
 
     /**
@@ -52,10 +60,11 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         if (moves) {
             // As they were tested.
             val series = diagnosed.log.series
-            add { against("speed", "Speed (m/s)", series.shown(series.speed)) }
-            val custom = if (diagnosed.log.heading == null) "counter-clockwise from east" else "as logged"
-            add { against("heading", "Heading (degrees $custom)", degrees(series.shown(series.heading))) }
-            add { position() }
+            val unit = if (columns.condition(Conditions.SPEED) == null) survey.speedUnit else "m/s"
+            add { against("speed", "Speed ($unit)", series.shown(series.speed)) }
+            // Along a single coordinate there are two directions, and no heading.
+            if (!survey.oneDimensional || diagnosed.log.heading != null) add { heading() }
+            add { if (survey.oneDimensional) against("position", survey.xName, columns.x) else position() }
         }
         columns.condition(Conditions.TEMPERATURE)?.let { add { against("temperature", "Temperature (°C)", it) } }
         add { correlation() }
@@ -88,7 +97,23 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         return Series(name, x.toDoubleArray(), y.toDoubleArray())
     }
 
-    private fun against(name: String, label: String, x: DoubleArray): DiagnosisFigure {
+    private fun heading(): DiagnosisFigure {
+        val series = diagnosed.log.series
+        val degrees = degrees(series.shown(series.heading))
+        val custom = if (diagnosed.log.heading == null) "counter-clockwise from east" else "as logged"
+        val caption = "The base model's residuals; the larger points are their means in sectors of " +
+            "${ResidualMeans.SECTOR.toInt()} degrees, at the mean heading of their rows, with two standard errors " +
+            "that allow for their correlation. Sectors beside each other are joined."
+        return against("heading", "Heading (degrees $custom)", degrees, means.inSectors(degrees), caption)
+    }
+
+    private fun against(
+        name: String,
+        label: String,
+        x: DoubleArray,
+        mean: List<Series> = means.inParts(x),
+        caption: String = IN_PARTS,
+    ): DiagnosisFigure {
         val rows = (0 until n step stride).filter { x[it].isFinite() }
         val points = Series(
             "residual",
@@ -99,7 +124,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         val plot = LinePlot(
             "Residuals against $name",
             "",
-            listOf(points, means(x)),
+            listOf(points) + mean,
             label,
             residualLabel,
             references = listOf(0.0),
@@ -107,26 +132,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         return DiagnosisFigure(
             "residuals-$name",
             plot.draw(),
-            "The base model's residuals; the line is their mean in twenty equal parts, with two standard errors that " +
-                "allow for their correlation.",
-        )
-    }
-
-    /** Means of the residuals in twenty parts of [x] with as many rows each. */
-    private fun means(x: DoubleArray): Series {
-        val order = (0 until n).filter { x[it].isFinite() }.sortedBy { x[it] }
-        val parts = order.chunked(maxOf(1, (order.size + PARTS - 1) / PARTS))
-        val noise = CorrelatedNoise(result.baseline.noiseSpread, result.baseline.noiseShare, result.baseline.noiseTime)
-        val middles = DoubleArray(parts.size) { p -> parts[p].sumOf { x[it] } / parts[p].size }
-        val means = DoubleArray(parts.size) { p -> parts[p].sumOf { residual[it] } / parts[p].size }
-        val reach = DoubleArray(parts.size) { p -> 2 * noise.ofMean(parts[p].sorted().map { time[it] }) }
-        return Series(
-            "mean",
-            middles,
-            means,
-            DoubleArray(parts.size) { means[it] - reach[it] },
-            DoubleArray(parts.size) { means[it] + reach[it] },
-            Mark.LINE_AND_POINTS,
+            caption,
         )
     }
 
@@ -166,7 +172,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
                 Series("as measured", x, correlations(residual, lags), mark = Mark.LINE_AND_POINTS),
                 Series("whitened", x, correlations(result.baseline.whitened, lags), mark = Mark.LINE_AND_POINTS),
             ),
-            "Rows between",
+            "Lag (rows of ${digits(track.medianStep)} s)",
             "Correlation",
             references = listOf(0.0),
         )
@@ -274,7 +280,9 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
     companion object {
         private const val MOST_POINTS = 2000
         private const val MOST_LAGS = 60
-        private const val PARTS = 20
+        private const val IN_PARTS =
+            "The base model's residuals; the line is their mean in twenty equal parts, with two standard errors that " +
+                "allow for their correlation."
 
         /** All names that a figure may have. */
         val NAMES = listOf("predicted", "correlation") +

@@ -1,6 +1,7 @@
 package stillwater.diagnosis
 
 import stillwater.io.GlobeColumns
+import stillwater.io.SurveyLog
 import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
 import stillwater.report.writeFigures
@@ -11,12 +12,13 @@ import stillwater.report.writeFigures
  * extended-sensor.json is written where something was named; without it the base sensor is the best there is, and
  * stands in diagnosis.json. Where nothing was fitted there are no figures, and residuals.csv has no model's columns.
  *
- * @param diagnosed what to write. @param command the command as typed, for the report. @param numbersOnly whether
- * figures and report are left out.
+ * @param diagnosed what to write. @param command the command as typed, for the report. @param survey the log as it was
+ * read. @param numbersOnly whether figures and report are left out.
  */
 internal class DiagnosisFiles(
     private val diagnosed: Diagnosed,
     private val command: String,
+    private val survey: SurveyLog,
     private val numbersOnly: Boolean = false,
 ) {
     /**
@@ -40,7 +42,7 @@ internal class DiagnosisFiles(
             table.close()
         }
         if (numbersOnly) return emptyList()
-        val figures = DiagnosisFigures(diagnosed).draw()
+        val figures = DiagnosisFigures(diagnosed, survey).draw()
         val warnings = directory.writeFigures(figures.map { it.name to it.figure })
         directory.write("report.html", DiagnosisReport(diagnosed, figures, command).render())
         return warnings

@@ -22,6 +22,8 @@ import kotlin.math.hypot
  * @property estimators each gets every reading of this boat.
  * @property travel how it moves and samples.
  * @property odometer counts what it spends. Modified.
+ * @property tellsSpeed whether [sensor] is told how fast the boat goes, m/s: from cell to cell the way of a move in the
+ *   move's time, and 0 where it stays. Nothing else is told.
  */
 class Boat(
     start: Position,
@@ -30,11 +32,14 @@ class Boat(
     val estimators: List<FieldEstimator>,
     private val travel: Travel,
     val odometer: Odometer = Odometer(),
+    private val tellsSpeed: Boolean = false,
 ) {
     private val plan = Plan()
     private var waypoint = 0
     private var samples = 0L
     private var reading = 0.0
+    private var speed = 0.0
+    private var conditions = speedOf(0.0)
     private val times = DoubleArray(travel.samplesPerMove)
     private val readings = DoubleArray(travel.samplesPerMove)
 
@@ -79,12 +84,15 @@ class Boat(
     /** To the next waypoint at once. */
     private fun step(map: () -> FieldMap) {
         if (waypoint == plan.size) ask(map)
+        var way = 0.0
         if (waypoint < plan.size) {
-            odometer.metres += distance(plan.x(waypoint) - x, plan.y(waypoint) - y)
+            way = distance(plan.x(waypoint) - x, plan.y(waypoint) - y)
+            odometer.metres += way
             x = plan.x(waypoint)
             y = plan.y(waypoint)
             waypoint++
         }
+        goes(way / (travel.samplesPerMove * travel.period))
     }
 
     /** √(east² + north²), m; a way along an axis, as nearly all are, needs no root. */
@@ -111,7 +119,17 @@ class Boat(
             odometer.metres += minOf(leg, left)
             left -= leg
         }
+        goes((if (left > 0) distance - left else distance) / travel.period)
     }
+
+    /** It goes at [now] m/s; only where that is new, and the sensor is told, something is made anew. */
+    private fun goes(now: Double) {
+        if (!tellsSpeed || now == speed) return
+        speed = now
+        conditions = speedOf(now)
+    }
+
+    private fun speedOf(now: Double) = if (tellsSpeed) Conditions(mapOf(Conditions.SPEED to now)) else Conditions.NONE
 
     private fun ask(map: () -> FieldMap) {
         val outcome = planner.plan(map(), Position(x, y), reading, StopCondition.NEVER, plan)
@@ -124,7 +142,7 @@ class Boat(
     private fun sample(field: CellField, count: Int) {
         val truth = field.truth(x, y)
         for (i in 0 until count) times[i] = ++samples * travel.period
-        sensor.stepAll(truth, travel.period, Conditions.NONE, readings, count)
+        sensor.stepAll(truth, travel.period, conditions, readings, count)
         onSample?.let { told -> repeat(count) { told(x, y) } }
         reading = readings[count - 1]
         odometer.seconds = times[count - 1]

@@ -1,6 +1,7 @@
 package stillwater.run
 
 import stillwater.field.CellField
+import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Position
 import stillwater.plan.BudgetedPlanner
@@ -76,6 +77,7 @@ internal class FleetBuilder(private val settings: ExperimentSettings, private va
                 },
                 travel,
                 odometers[index],
+                tellsSpeed = Conditions.SPEED in settings.sensor.conditions,
             )
         }
         val tracks = List(order.count) { ArrayList<Position>() }

@@ -4,6 +4,7 @@ import stillwater.drive.MapCautions
 import stillwater.report.SignificantDigits
 import stillwater.report.counted
 import stillwater.survey.SensorWording
+import stillwater.world.SimulatedConditions
 
 /**
  * A [SimulationResult] in words: facts, and what to beware of.
@@ -46,6 +47,7 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         run.world.emptySince?.let {
             add("the battery was empty after ${clock(it.seconds)}: from then on the boat had no thrust and drifted")
         }
+        SimulatedConditions.missing(run.world.sensor)?.let { add(it) }
         MapCautions.nothing(run.mission)?.let { add(it) }
         if (!result.readings.isComplete) add("the readings do not add up: ${result.readings}")
         val where = if (run.world.settings.water.isEvenInCells) "" else ", as where the water changes within a cell"

@@ -3,14 +3,19 @@ package stillwater.world
 import org.junit.jupiter.api.Test
 import stillwater.model.Actuation
 import stillwater.model.BoatTime
+import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.model.LatLon
 import stillwater.model.Position
+import stillwater.sensor.SensorSpec
+import stillwater.sensor.SensorStage
 import stillwater.virtual.BoardSpec
 import stillwater.virtual.Firmware
+import stillwater.virtual.Hull
 import stillwater.virtual.PoseSpec
 import kotlin.math.abs
+import kotlin.math.hypot
 import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertNotEquals
@@ -39,6 +44,18 @@ class VirtualWorldTest {
             if (count > 0) heard.append(bytes.decodeToString(0, count))
         }
         return listOf(heard.toString(), world.boat.takeFix(), world.boat.dynamics.x, world.battery.used)
+    }
+
+    /** A boat that nothing drives is carried by the current, which its probe does not feel, and by the wind, which it does. */
+    @Test
+    fun theProbeIsToldTheSpeedThroughTheWater() {
+        val passing = Hull().windage * hypot(windy.wind.east, windy.wind.north)
+        val follows = SensorSpec("follows", listOf(SensorStage.Cross(Conditions.SPEED, 0.0, 10.0)))
+        val isOff = SensorSpec("is off", listOf(SensorStage.Calibration(1.0, 10 * passing)))
+        assertEquals(
+            seen(VirtualWorld(windy.copy(sensor = isOff), site), 0.1),
+            seen(VirtualWorld(windy.copy(sensor = follows), site), 0.1),
+        )
     }
 
     @Test

@@ -1,0 +1,18 @@
+package stillwater.world
+
+import stillwater.sensor.SensorSpec
+import stillwater.virtual.VirtualBoat
+
+/** What a simulated sensor can be told beside the water: how fast the boat goes through it, and nothing else. */
+object SimulatedConditions {
+    /** A sentence that names what [sensor] depends on and no simulation has; null where it has all. */
+    fun missing(sensor: SensorSpec): String? {
+        val missing = sensor.conditions - VirtualBoat.CONDITIONS
+        if (missing.isEmpty()) return null
+        val them = if (missing.size == 1) "it" else "these"
+        return "the simulation has ${missing.joinToString(" and ") {
+            "no $it"
+        }}: what in the sensor depends on $them " +
+            "has no effect here"
+    }
+}
