@@ -118,11 +118,9 @@ internal class CorrectSummary(
 
     private fun interval(): String {
         result.unknown?.let { (lag, lagless) ->
-            return "95 %, ${digits(
-                halfWidth(lagless),
-                3,
-            )}$unitAfter either way on average ${trust.words}; as written, " +
-                "for any lag of up to ${digits(lag, 2)} s, ${digits(halfWidth, 3)}$unitAfter"
+            val without = digits(halfWidth(lagless), 3)
+            return "95 %, $without$unitAfter either way on average ${trust.words}; as written, for any lag of up to " +
+                "${digits(lag, 2)} s, ${digits(halfWidth, 3)}$unitAfter"
         }
         val other = hintedHalfWidths?.let { (without, with) ->
             val words = if (holdsHint) "if there is no slow path" else "with the slow path that the log hints at"

@@ -9,10 +9,8 @@ object SimulatedConditions {
     fun missing(sensor: SensorSpec): String? {
         val missing = sensor.conditions - VirtualBoat.CONDITIONS
         if (missing.isEmpty()) return null
+        val none = missing.joinToString(" and ") { "no $it" }
         val them = if (missing.size == 1) "it" else "these"
-        return "the simulation has ${missing.joinToString(" and ") {
-            "no $it"
-        }}: what in the sensor depends on $them " +
-            "has no effect here"
+        return "the simulation has $none: what in the sensor depends on $them has no effect here"
     }
 }
