@@ -218,7 +218,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed, private val su
     }
 
     /** Causes that do not show in what the model predicts. */
-    private val beside = setOfNotNull(Cause.OUTLIERS, Cause.TIME_VARYING_FIELD.takeIf { result.revisits != null })
+    private val beside = setOf(Cause.OUTLIERS, Cause.TIME_VARYING_FIELD)
 
     private fun outliers(): DiagnosisFigure {
         val far = result.spikes

@@ -25,7 +25,7 @@ internal class Sheet(val title: String, val subtitle: String, val width: Int, va
     fun figure(plot: Plot, more: Feature = theme()): Figure {
         val heading = ggtitle(title.ifEmpty { " " }, subtitle.ifEmpty { null })
         val dressed = plot + look() + more + ggsize(width, height) + heading
-        val drawn = PlotSvgExport.buildSvgImageFromRawSpecs(dressed.toSpec())
+        val drawn = SecondTry.of { PlotSvgExport.buildSvgImageFromRawSpecs(dressed.toSpec()) }
         return Figure(title, StableSvg.of(drawn, title, width, height), width, height)
     }
 

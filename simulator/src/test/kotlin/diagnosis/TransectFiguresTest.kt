@@ -56,4 +56,15 @@ class TransectFiguresTest {
         assertContains(out.resolve("correlation.svg").readText(), "Lag (rows of 2 s)")
         assertContains(out.resolve("residuals-time.svg").readText(), ResidualMeans.BAND)
     }
+
+    @Test
+    fun waterThatChangesIsTriedWithoutAReferenceAndHasNoFigureOfAModelItIsNotIn() {
+        val out = directory.resolve("blind")
+        val columns = listOf("--x", "pres_dbar", "--value", "do_mg_l")
+        val result = Stillwater().subcommands(DiagnoseCommand())
+            .test(listOf("diagnose", "${casts()}", "--out", "$out", "--quiet") + columns)
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(out.resolve("diagnosis.json").readText(), "\"cause\": \"time-varying-field\"")
+        assertFalse(out.resolve("cause-time-varying-field.svg").exists())
+    }
 }
