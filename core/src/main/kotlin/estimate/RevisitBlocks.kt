@@ -90,11 +90,7 @@ internal class RevisitBlocks(private val nodes: TrackNodes, private val mostBloc
     }
 
     /** Whether the boat goes through nodes [a] and [b] in other directions, or at other speeds. */
-    private fun isUnlike(a: Int, b: Int): Boolean {
-        val (ax, ay) = velocity(a)
-        val (bx, by) = velocity(b)
-        return hypot(ax - bx, ay - by) > TrackCrossings.UNLIKE * maxOf(hypot(ax, ay), hypot(bx, by))
-    }
+    private fun isUnlike(a: Int, b: Int): Boolean = TrackCrossings.areUnlike(velocity(a), velocity(b))
 
     /** By as many nodes either way as a block has halves, m/s. */
     private fun velocity(node: Int): Pair<Double, Double> {

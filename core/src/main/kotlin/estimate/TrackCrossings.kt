@@ -76,11 +76,7 @@ internal class TrackCrossings(private val series: TrackSeries) {
         series.times[other] - series.times[one] > LEAST_STEPS * series.medianStep
 
     /** Whether the boat goes through segments [i] and [j] in other directions, or at other speeds, by some rows either way. */
-    private fun isUnlike(i: Int, j: Int): Boolean {
-        val (ax, ay) = velocity(i)
-        val (bx, by) = velocity(j)
-        return hypot(ax - bx, ay - by) > UNLIKE * maxOf(hypot(ax, ay), hypot(bx, by))
-    }
+    private fun isUnlike(i: Int, j: Int): Boolean = areUnlike(velocity(i), velocity(j))
 
     /** Mean velocity about segment [i], m/s: of a single one it is that of the fixes' errors as well. */
     private fun velocity(i: Int): Pair<Double, Double> {
@@ -166,7 +162,14 @@ internal class TrackCrossings(private val series: TrackSeries) {
          * Two velocities that differ by less than this part of the larger are alike: 20 degrees, or a third of the speed. A lag
          * that is wrong by all of its length moves such passes apart by a third of the way that it moves each.
          */
-        const val UNLIKE = 0.35
+        private const val UNLIKE = 0.35
+
+        /** Whether velocities [a] and [b], m/s east and north, differ by more than [UNLIKE]. */
+        fun areUnlike(a: Pair<Double, Double>, b: Pair<Double, Double>): Boolean {
+            val (ax, ay) = a
+            val (bx, by) = b
+            return hypot(ax - bx, ay - by) > UNLIKE * maxOf(hypot(ax, ay), hypot(bx, by))
+        }
 
         /** Velocities are means over so long either way, s, and so many median steps. */
         private const val VELOCITY_TIME = 5.0

@@ -25,13 +25,11 @@ internal object SensorCautions {
             words
         }
         if (unfit.isEmpty()) return null
-        return "the water of the fields is within ${words(
-            settings.prior,
-        )}, and numbers of the sensor are not made for " +
-            "that: ${unfit.joinToString("; ")}. Nothing was scaled: numbers in sensor units have to be the fields'"
+        val range = "${digits(settings.prior.lower)} to ${digits(settings.prior.upper)}"
+        return "the water of the fields is within $range, and numbers of the " +
+            "sensor are not made for that: ${unfit.joinToString("; ")}. Nothing was scaled: numbers in sensor units " +
+            "have to be the fields'"
     }
-
-    private fun words(range: Interval) = "${digits(range.lower)} to ${digits(range.upper)}"
 
     /** Which numbers of a stage cannot be meant for readings within [shown]. */
     private class Unfit(private val shown: Interval, private val settings: ExperimentSettings) {
@@ -57,13 +55,8 @@ internal object SensorCautions {
         private fun much(name: String, size: Double, most: Double): String? {
             val share = abs(size) / shown.width
             if (!(share > most)) return null
-            val times = if (share >
-                BEYOND
-            ) {
-                "${digits(share, 2)} times the range"
-            } else {
-                "${digits(100 * share, 2)} % of it"
-            }
+            val isBeyond = share > BEYOND
+            val times = if (isBeyond) "${digits(share, 2)} times the range" else "${digits(100 * share, 2)} % of it"
             return "$name ${digits(size)} would be $times"
         }
 
@@ -76,10 +69,7 @@ internal object SensorCautions {
             return when (beyond.size) {
                 0 -> null
                 1 -> "the end of its range at ${digits(beyond.single())} is outside and has no effect"
-                else -> "the ends of its range at ${beyond.joinToString(" and ") {
-                    digits(it)
-                }} are outside and have " +
-                    "no effect"
+                else -> "the ends of its range at ${digits(lower)} and ${digits(upper)} are outside and have no effect"
             }
         }
 

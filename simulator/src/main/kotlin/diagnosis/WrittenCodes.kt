@@ -33,17 +33,23 @@ internal object WrittenCodes {
         val values = counts.keys.toDoubleArray()
         val wanted = (0..2 * CODES).flatMap { all -> (0..all).map { it to all - it } }
             .filter { (low, high) -> low + high > 0 && low <= CODES && high <= CODES && low + high < values.size - 1 }
-        val real = truth.filter { it.isFinite() && !isNines(it) }
+        // Seldom asked for, and a look at each number's digits.
+        val real by lazy { truth.filter { it.isFinite() && !isNines(it) } }
         for ((low, high) in wanted) {
             val codes = values.take(low) + values.takeLast(high)
             if (codes.sumOf { counts.getValue(it) } > MOST * known.size) continue
-            val least = minOf(values[low], real.minOrNull() ?: values[low])
-            val most = values[values.size - 1 - high].let { maxOf(it, real.maxOrNull() ?: it) }
-            val reach = BEYOND * (most - least)
-            val areFar = reach > 0 && codes.all { it < least - reach || it > most + reach }
-            if (areFar && codes.all { counts.getValue(it) >= FEWEST && isCode(it, column) }) return codes
+            val ends = listOf(values[low], values[values.size - 1 - high])
+            if (!areFar(codes, ends) || codes.any { counts.getValue(it) < FEWEST || !isCode(it, column) }) continue
+            if (areFar(codes, ends + real)) return codes
         }
         return emptyList()
+    }
+
+    private fun areFar(codes: List<Double>, others: List<Double>): Boolean {
+        val least = others.min()
+        val most = others.max()
+        val reach = BEYOND * (most - least)
+        return reach > 0 && codes.all { it < least - reach || it > most + reach }
     }
 
     private fun isNines(number: Double) = NINES.matches(number.toBigDecimal().toPlainString())

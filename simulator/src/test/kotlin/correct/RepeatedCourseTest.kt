@@ -1,16 +1,9 @@
 package stillwater.correct
 
-import com.github.ajalt.clikt.core.subcommands
-import com.github.ajalt.clikt.testing.CliktCommandTestResult
-import com.github.ajalt.clikt.testing.test
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.io.TempDir
-import stillwater.cli.CorrectCommand
-import stillwater.cli.Stillwater
 import java.nio.file.Path
 import java.util.Locale
-import kotlin.io.path.readLines
-import kotlin.io.path.writeText
 import kotlin.math.cos
 import kotlin.math.exp
 import kotlin.math.sin
@@ -23,6 +16,7 @@ import kotlin.test.assertTrue
 class RepeatedCourseTest {
     @TempDir
     private lateinit var directory: Path
+    private val logs by lazy { SlowLogs(directory) }
 
     /** What a sensor with a lag of 12 s shows along [place], once a second, in water of forty waves. */
     private fun log(rows: Int, place: (Double) -> Pair<Double, Double>) = buildString {
@@ -30,18 +24,8 @@ class RepeatedCourseTest {
         val random = java.util.Random(SEED)
         val waves = List(40) { k ->
             val scale = if (k < 30) 22.0 else 8.0
-            listOf(
-                random.nextGaussian() / scale,
-                random.nextGaussian() / scale,
-                7 * random.nextDouble(),
-                if (k <
-                    30
-                ) {
-                    1.0
-                } else {
-                    0.3
-                },
-            )
+            val height = if (k < 30) 1.0 else 0.3
+            listOf(random.nextGaussian() / scale, random.nextGaussian() / scale, 7 * random.nextDouble(), height)
         }
         fun water(x: Double, y: Double) = waves.sumOf { it[3] * cos(it[0] * x + it[1] * y + it[2]) } / sqrt(20.0)
         var shown = Double.NaN
@@ -56,46 +40,32 @@ class RepeatedCourseTest {
         }
     }
 
-    private fun correct(text: String): CliktCommandTestResult {
-        val file = directory.resolve("log.csv").also { it.writeText(text) }.toString()
-        val arguments = listOf("correct", file, "--value", "slow", "--out", directory.resolve("results").toString())
-        return Stillwater().subcommands(CorrectCommand()).test(arguments)
-    }
-
-    /** Share of rows whose interval holds the truth. */
-    private fun held(): Double {
-        val rows = directory.resolve("results/corrected.csv").readLines().drop(1).map { line ->
-            line.split(",").map { it.toDouble() }
-        }
-        return rows.count { it[4] in it[6]..it[7] }.toDouble() / rows.size
-    }
-
     /** Still fewer than 95 % of the rows are held, 85; it was 69, and nothing was said. */
     @Test
     fun ofAFigureOfEightItsCrossingAloneTellsTheLag() {
-        val result = correct(log(2400) { 40 * sin(it / 74) to 25 * sin(it / 37) })
+        val result = logs.correct(log(2400) { 40 * sin(it / 74) to 25 * sin(it / 37) })
         assertEquals(0, result.statusCode, result.output)
         assertContains(result.stderr, "runs of the track all passes go the same way at the same speed")
         assertContains(result.stderr, "go the same way at the same speed, and agree whatever the sensor's lag, but in")
-        assertTrue(held() >= 0.8, "${held()}")
+        assertTrue(logs.held() >= 0.8, "${logs.held()}")
     }
 
     /** Three responses were open, agreement with 100 runs was the check, and intervals held an eighth of the rows. */
     @Test
     fun orItDoesNotAndThatIsSaid() {
-        val result = correct(log(2400) { 55 * sin(it / 74) to 30 * sin(it / 37) })
+        val result = logs.correct(log(2400) { 55 * sin(it / 74) to 30 * sin(it / 37) })
         assertEquals(0, result.statusCode, result.output)
         assertContains(result.stderr, "agree whatever the sensor's lag, but in too few places, so that nothing shows")
-        assertTrue(held() >= 0.95, "${held()}")
+        assertTrue(logs.held() >= 0.95, "${logs.held()}")
     }
 
     @Test
     fun ofARingNothingDoesAndThatIsSaid() {
-        val result = correct(log(2400) { 35 * sin(it / 48) to 35 * cos(it / 48) })
+        val result = logs.correct(log(2400) { 35 * sin(it / 48) to 35 * cos(it / 48) })
         assertEquals(0, result.statusCode, result.output)
         assertContains(result.stderr, "passes near each other go the same way at the same speed, and agree whatever")
         assertContains(result.stderr, "intervals hold a sensor with any lag of up to 30 s")
-        assertTrue(held() >= 0.95, "${held()}")
+        assertTrue(logs.held() >= 0.95, "${logs.held()}")
     }
 
     private companion object {

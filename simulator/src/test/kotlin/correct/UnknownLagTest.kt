@@ -1,17 +1,10 @@
 package stillwater.correct
 
-import com.github.ajalt.clikt.core.subcommands
-import com.github.ajalt.clikt.testing.CliktCommandTestResult
-import com.github.ajalt.clikt.testing.test
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.io.TempDir
-import stillwater.cli.CorrectCommand
-import stillwater.cli.Stillwater
 import java.nio.file.Path
 import java.util.Locale
-import kotlin.io.path.readLines
 import kotlin.io.path.readText
-import kotlin.io.path.writeText
 import kotlin.math.cos
 import kotlin.math.exp
 import kotlin.math.sin
@@ -24,6 +17,7 @@ import kotlin.test.assertTrue
 class UnknownLagTest {
     @TempDir
     private lateinit var directory: Path
+    private val logs by lazy { SlowLogs(directory) }
 
     /** What a sensor with a lag of 8 s shows of [water] five times a second at [place], with fixes off by [off], m, each. */
     private fun log(
@@ -51,21 +45,6 @@ class UnknownLagTest {
         }
     }
 
-    private fun correct(text: String): CliktCommandTestResult {
-        val file = directory.resolve("log.csv").also { it.writeText(text) }.toString()
-        val out = directory.resolve("results").toString()
-        val arguments = listOf("correct", file, "--value", "slow", "--out", out)
-        return Stillwater().subcommands(CorrectCommand()).test(arguments)
-    }
-
-    /** Share of rows whose interval holds the truth. */
-    private fun held(): Double {
-        val rows = directory.resolve("results/corrected.csv").readLines().drop(1).map { line ->
-            line.split(",").map { it.toDouble() }
-        }
-        return rows.count { it[4] in it[6]..it[7] }.toDouble() / rows.size
-    }
-
     /** Its intervals held 2 to 4 % of the rows, "because the boat hardly moves". */
     @Test
     fun aSlowBoatWhoseFixesScatterFartherThanItGoesInTenSecondsIsLearnedFrom() {
@@ -75,18 +54,18 @@ class UnknownLagTest {
             val along = time * 0.5 - leg * 40
             return (if (leg % 2 == 0) along else 40 - along) to 5.0 * leg
         }
-        val result = correct(log(4800, off = 1.8, ::place) { x, y, _ -> sin(x / 7 + 1) + sin(y / 9 + x / 30) })
+        val result = logs.correct(log(4800, off = 1.8, ::place) { x, y, _ -> sin(x / 7 + 1) + sin(y / 9 + x / 30) })
         assertEquals(0, result.statusCode, result.output)
         assertFalse("hardly moves" in result.stderr, result.stderr)
         assertContains(result.stdout, "runs of the track foretold by other passes")
-        assertTrue(held() >= 0.95, "${held()}")
+        assertTrue(logs.held() >= 0.95, "${logs.held()}")
     }
 
     /** They held a tenth of the rows and less. */
     @Test
     fun intervalsOfABoatAtAnchorHoldALagOfWhichNothingIsKnown() {
         fun place(time: Double) = 5 * sin(time / 50) to 5 * cos(time / 70)
-        val result = correct(log(3000, off = 1.6, ::place) { x, _, time -> 0.02 * x + 0.3 * sin(time / 60) })
+        val result = logs.correct(log(3000, off = 1.6, ::place) { x, _, time -> 0.02 * x + 0.3 * sin(time / 60) })
         assertEquals(0, result.statusCode, result.output)
         assertContains(result.stderr, "hardly moves")
         assertContains(
@@ -95,16 +74,16 @@ class UnknownLagTest {
         )
         assertContains(result.stdout, "if the sensor has no lag; as written, for any lag of up to 30 s, 0.")
         assertContains(directory.resolve("results/summary.json").readText(), "\"mean_half_width_without_lag\": 0.00")
-        assertTrue(held() >= 0.95, "${held()}")
+        assertTrue(logs.held() >= 0.95, "${logs.held()}")
     }
 
     /** A way out that is not come back. */
     @Test
     fun soDoThoseOfATrackThatNeverComesBack() {
         fun place(time: Double) = time to 3 * sin(time / 30)
-        val result = correct(log(2500, off = 0.2, ::place) { x, y, _ -> sin(x / 12) + y / 10 })
+        val result = logs.correct(log(2500, off = 0.2, ::place) { x, y, _ -> sin(x / 12) + y / 10 })
         assertEquals(0, result.statusCode, result.output)
         assertContains(result.stderr, "no pass comes near another")
-        assertTrue(held() >= 0.95, "${held()}")
+        assertTrue(logs.held() >= 0.95, "${logs.held()}")
     }
 }

@@ -289,7 +289,7 @@ internal class BlindAnswer(
             isRounded -> candidate.surelyRounded()
             else -> candidate
         }
-    } + outliers.beside(rmse(last.residuals), first)
+    } + outliers.beside(rmse(first.state.residuals), first)
 
     private fun candidates(first: BlindRound): List<Candidate> {
         val state = first.state

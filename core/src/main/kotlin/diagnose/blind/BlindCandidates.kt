@@ -8,8 +8,8 @@ import stillwater.diagnose.evidence.StillReadings
 import stillwater.sensor.SensorStage
 
 /**
- * What changes nothing in what the model shows, which leaves [rest]: these wild readings, and water that changes on top of
- * the [first] model.
+ * What changes nothing in what the [first] model shows, which leaves [rest]: these wild readings, and water that changes on
+ * top of it.
  */
 internal fun BlindOutliers.beside(rest: Double, first: BlindRound): List<Candidate> {
     val chances = listOf(Cause.OUTLIERS to pValue, Cause.TIME_VARYING_FIELD to Evidence.pValue(first.changed, 1))

@@ -167,17 +167,11 @@ internal class Weighing(
      * The base with the shifts that are fitted beside and not named, without the [named] causes: without those, lag and gain
      * make up for them, and what was named would have their part in its gain. Null where nothing is told of the log.
      */
-    private fun shiftedBase(verdict: Verdict, named: List<Trial>): ModelFit? = when (verdict) {
-        is Verdict.Consistent -> last
-        is Verdict.Named, is Verdict.Ambiguous -> last.without(
-            named,
-            last.numbers[ResponseModel.TIME_CONSTANT],
-            scales,
-            last.model.steps,
-            used,
-            search.longest,
-        )
-        else -> null
+    private fun shiftedBase(verdict: Verdict, named: List<Trial>): ModelFit? {
+        if (verdict is Verdict.Unexplained || verdict is Verdict.InsufficientData) return null
+        if (named.isEmpty()) return last
+        val tau = last.numbers[ResponseModel.TIME_CONSTANT]
+        return last.without(named, tau, scales, last.model.steps, used, search.longest)
     }
 
     /** A boat that keeps its speed has a probe behind it that is late by the same time everywhere: a dead time may be that. */

@@ -29,6 +29,17 @@ class ShiftedBaseTest {
         return diagnosed(values)
     }
 
+    /** A lag of 8 s in one step a row, of which [shown] makes the reading of a row. */
+    private fun lagging(seed: Long, shown: (Int, Double, java.util.Random) -> Double): DiagnosisResult {
+        val random = java.util.Random(seed)
+        var state = truth[0]
+        val values = DoubleArray(n) { i ->
+            state += (1 - exp(-1 / 8.0)) * (truth[i] - state)
+            shown(i, state, random)
+        }
+        return diagnosed(values)
+    }
+
     private fun diagnosed(values: DoubleArray): DiagnosisResult {
         val still = DoubleArray(n)
         return Diagnosis(MeasuredSeries(DoubleArray(n) { it.toDouble() }, still, still, values, truth)).run()
@@ -47,13 +58,8 @@ class ShiftedBaseTest {
 
     @Test
     fun blocksAreHeldOutForWhatIsWorthALookAlone() {
-        val random = java.util.Random(13)
-        var state = truth[0]
-        val values = DoubleArray(n) { i ->
-            state += (1 - exp(-1 / 8.0)) * (truth[i] - state)
-            state + 2e-4 * i + 0.03 * random.nextGaussian()
-        }
-        val candidates = diagnosed(values).candidates
+        val candidates =
+            lagging(13) { i, state, random -> state + 2e-4 * i + 0.03 * random.nextGaussian() }.candidates
         assertTrue(candidates.first { it.cause == Cause.DRIFT }.heldOutRmse.isFinite())
         val unlikely = candidates.filter { it.pValue > 0.5 }
         assertTrue(unlikely.isNotEmpty() && unlikely.all { it.heldOutRmse.isNaN() }, "$unlikely")
@@ -61,13 +67,9 @@ class ShiftedBaseTest {
 
     @Test
     fun roundingThatReadingsShowIsNoChance() {
-        val random = java.util.Random(12)
-        var state = truth[0]
-        val values = DoubleArray(n) { i ->
-            state += (1 - exp(-1 / 8.0)) * (truth[i] - state)
+        val result = lagging(12) { _, state, random ->
             0.12 * round((state + 0.05 * random.nextGaussian()) / 0.12)
         }
-        val result = diagnosed(values)
         assertEquals(Verdict.Named(listOf(Cause.QUANTISATION)), result.verdict)
         assertEquals(0.0, result.candidates.first { it.cause == Cause.QUANTISATION }.adjustedPValue)
     }
