@@ -63,6 +63,7 @@ public data class Estimate(val name: String, val unit: String, val value: Double
  * @property predicted what it shows along the log, sensor units, length n. Not to be modified.
  * @property noiseSpread standard deviation of the noise. @property noiseShare share of it that is correlated.
  * @property noiseTime over how long, s. @property whitened residuals without their correlation, standard deviations.
+ * @property nullResiduals what [whitened] would be if the model were right.
  */
 public class ModelAssessment internal constructor(
     public val parameters: List<Estimate>,
@@ -74,14 +75,17 @@ public class ModelAssessment internal constructor(
     public val noiseShare: Double,
     public val noiseTime: Double,
     public val whitened: DoubleArray,
+    public val nullResiduals: NullResiduals,
 ) {
-    internal fun of(rows: IntArray) = with(parameters, predicted.at(rows), whitened.at(rows))
+    internal fun of(rows: IntArray) =
+        with(parameters, predicted.at(rows), whitened.at(rows), nullResiduals.of(rows))
 
     /** The same with other numbers and rows. */
     internal fun with(
         parameters: List<Estimate>,
         predicted: DoubleArray = this.predicted,
         whitened: DoubleArray = this.whitened,
+        nullResiduals: NullResiduals = this.nullResiduals,
     ) = ModelAssessment(
         parameters,
         trainRmse,
@@ -92,6 +96,7 @@ public class ModelAssessment internal constructor(
         noiseShare,
         noiseTime,
         whitened,
+        nullResiduals,
     )
 }
 

@@ -27,6 +27,12 @@ class Diagnosed(
     val channels: ChannelLags? = null,
     private val unit: String? = null,
 ) {
+    /** Checks of what the best model leaves. */
+    internal val checks by lazy { ResidualChecks(best, result.baseline, log.columns.values) }
+
+    /** The extended model; the base where nothing was named. */
+    val best: ModelAssessment get() = result.extended ?: result.baseline
+
     /** The quantity with its unit. */
     val quantity: String = if (unit == null) log.quantity else "${log.quantity} ($unit)"
 

@@ -10,12 +10,12 @@ import stillwater.model.Conditions
 import stillwater.plot.Figure
 import stillwater.plot.LinePlot
 import stillwater.plot.Mark
+import stillwater.plot.NullDistributions
 import stillwater.plot.Series
 import stillwater.plot.TrackMap
 import stillwater.plot.drawConcurrently
 import stillwater.survey.Wording.Companion.digits
 import kotlin.math.hypot
-import kotlin.math.sqrt
 
 /** A figure with the name of its files and what it shows. */
 internal class DiagnosisFigure(val name: String, val figure: Figure, val caption: String)
@@ -68,6 +68,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed, private val su
         }
         columns.condition(Conditions.TEMPERATURE)?.let { add { against("temperature", "Temperature (°C)", it) } }
         add { correlation() }
+        if (diagnosed.checks.all.isNotEmpty()) add { checks() }
     }
 
     private fun predicted(): DiagnosisFigure {
@@ -153,35 +154,45 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed, private val su
     private fun correlation(): DiagnosisFigure {
         val lags = minOf(MOST_LAGS, n / 4)
         val x = DoubleArray(lags) { it + 1.0 }
-        val null95 = 1.96 / sqrt(n.toDouble())
-        val band =
-            Series(
-                "no correlation (95 %)",
-                x,
-                DoubleArray(lags),
-                DoubleArray(lags) {
-                    -null95
-                },
-                DoubleArray(lags) { null95 },
-            )
+        val (lower, upper) = diagnosed.checks.correlations(lags)
+        val band = Series("noise alone (95 %)", x, DoubleArray(lags) { Double.NaN }, lower, upper)
         val plot = LinePlot(
             "Correlation of the residuals",
             "",
             listOf(
                 band,
-                Series("as measured", x, correlations(residual, lags), mark = Mark.LINE_AND_POINTS),
-                Series("whitened", x, correlations(result.baseline.whitened, lags), mark = Mark.LINE_AND_POINTS),
+                Series("as measured", x, ResidualChecks.correlations(residual, lags), mark = Mark.LINE_AND_POINTS),
+                Series(
+                    "whitened, best model",
+                    x,
+                    ResidualChecks.correlations(diagnosed.best.whitened, lags),
+                    mark = Mark.LINE_AND_POINTS,
+                ),
             ),
             "Lag (rows of ${digits(track.medianStep)} s)",
             "Correlation",
             references = listOf(0.0),
         )
         return DiagnosisFigure(
-            "correlation",
+            CORRELATION,
             plot.draw(),
-            "Correlated residuals make everything look significant; the tests use the whitened ones.",
+            "Correlated residuals make everything look significant; the tests use the whitened ones. The band is " +
+                "where these are in 95 of 100 simulated logs that the model is right about.",
         )
     }
+
+    private fun checks() = DiagnosisFigure(
+        CHECKS,
+        NullDistributions(
+            "Residuals against their null distributions",
+            "",
+            diagnosed.checks.all.map {
+                it.drawn()
+            },
+        ).draw(),
+        "What the whitened residuals of the best model have (the marks), and what they have in simulated logs that " +
+            "it is right about (the densities). A mark far from its density is structure that the model has not.",
+    )
 
     /** The causes of the answer. */
     private val named: List<Cause> = when (val verdict = result.verdict) {
@@ -284,20 +295,15 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed, private val su
             "The base model's residuals; the line is their mean in twenty equal parts, with two standard errors that " +
                 "allow for their correlation."
 
+        private const val CORRELATION = "correlation"
+        private const val CHECKS = "checks"
+
+        /** Names of figures of whitened residuals. */
+        val WHITENED = listOf(CORRELATION, CHECKS)
+
         /** All names that a figure may have. */
-        val NAMES = listOf("predicted", "correlation") +
+        val NAMES = WHITENED + "predicted" +
             listOf("time", "value", "rate", "speed", "heading", "position", "temperature").map { "residuals-$it" } +
             Cause.entries.map { "cause-${it.label}" }
-
-        /** Correlation of [x] with itself 1 to [lags] rows later. */
-        fun correlations(x: DoubleArray, lags: Int): DoubleArray {
-            val mean = x.average()
-            val all = x.sumOf { (it - mean) * (it - mean) }
-            return DoubleArray(lags) { lag ->
-                var sum = 0.0
-                for (i in lag + 1 until x.size) sum += (x[i] - mean) * (x[i - lag - 1] - mean)
-                if (all > 0) sum / all else 0.0
-            }
-        }
     }
 }

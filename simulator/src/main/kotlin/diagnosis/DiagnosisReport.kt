@@ -7,7 +7,6 @@ import stillwater.report.Program
 import stillwater.report.Provenance
 import stillwater.report.SignificantDigits
 import stillwater.report.Table
-import stillwater.survey.ValueResolution
 
 /** The page about a [Diagnosed] log, for someone who has two minutes. */
 internal class DiagnosisReport(
@@ -17,11 +16,7 @@ internal class DiagnosisReport(
 ) {
     private val result = diagnosed.result
     private val three = SignificantDigits(3)
-    private val checks: List<ResidualCheck> = ResidualChecks.of(
-        (result.extended ?: result.baseline).whitened,
-        ValueResolution.of(diagnosed.log.columns.values).let { if (it.isFinite()) it else 0.0 },
-        result.baseline.noiseSpread,
-    )
+    private val checks = if (diagnosed.isFitted) diagnosed.checks.all else emptyList()
     private val page = HtmlReport(
         title = "Diagnosis of ${diagnosed.quantity}",
         subtitle = "${diagnosed.log.file.fileName}, ${diagnosed.log.format}",
@@ -93,7 +88,7 @@ internal class DiagnosisReport(
 
     /** Intervals are worth what the model is: where more than chance is left, the reader must know. */
     private fun stillwater.report.ReportSection.leftOver() {
-        val outside = checks.filter { it.value !in it.lower..it.upper }
+        val outside = checks.filter { it.isOutside }
         if (outside.size < 2) return
         paragraph(
             "What is left is more than noise: ${outside.size} of the ${checks.size} checks of the residuals below " +
@@ -136,7 +131,7 @@ internal class DiagnosisReport(
 
     private fun stillwater.report.ReportSection.residuals() {
         figures.filter {
-            it.name.startsWith("residuals-") || it.name == "correlation"
+            it.name.startsWith("residuals-") || it.name in DiagnosisFigures.WHITENED
         }.forEach { figure(it.figure, it.caption) }
         table(
             Table.of(checks) {

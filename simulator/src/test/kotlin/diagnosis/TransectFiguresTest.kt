@@ -54,6 +54,7 @@ class TransectFiguresTest {
         assertContains(out.resolve("residuals-speed.svg").readText(), "Speed (units of pres_dbar per s)")
         assertFalse(out.resolve("residuals-heading.svg").exists(), "a heading along one coordinate")
         assertContains(out.resolve("correlation.svg").readText(), "Lag (rows of 2 s)")
+        assertContains(out.resolve("checks.svg").readText(), "correlation with rounding to 0.001, base")
         assertContains(out.resolve("residuals-time.svg").readText(), ResidualMeans.BAND)
     }
 

@@ -105,7 +105,29 @@ class ChartsTest {
     }
 
     @Test
+    fun aStatisticIsAMarkOnItsNullDistributionAndAnArrowWhereItIsFarOut() {
+        val chance = DoubleArray(200) { (it - 99.5) / 57.7 }
+        fun statistic(name: String, value: Double) = NullDistribution(name, value, chance)
+        val near = SvgParts(NullDistributions("t", "", listOf(statistic("a", 1.0), statistic("b", -2.0))).draw())
+        assertEquals(2, near.fills(SvgParts.BLUE).size, "a density each")
+        val marks = near.all("line").filter { it.getAttribute("stroke") == SvgParts.VERMILION }
+        assertEquals(2, marks.size)
+        // Standard deviations apart, on an axis of 13.
+        val across = marks.map { it.getAttribute("x1").toDouble() }
+        val ticks = near.all("line").filter { it.getAttribute("stroke") != SvgParts.VERMILION }
+            .filter { it.getAttribute("x1") == it.getAttribute("x2") && it.getAttribute("x1") != "0.0" }
+            .map { it.getAttribute("x1").toDouble() }.distinct().sorted()
+        assertEquals(3.0, (across[0] - across[1]) / ((ticks.last() - ticks.first()) / 12), 0.01)
+        val far = SvgParts(NullDistributions("t", "", listOf(statistic("a", 25.0), statistic("b", -9.0))).draw())
+        assertEquals(0, far.all("line").count { it.getAttribute("stroke") == SvgParts.VERMILION })
+        for (text in listOf("25 →", "← −9")) assertContains(far.texts, text)
+        assertFailsWith<IllegalArgumentException> { NullDistribution("a", 1.0, doubleArrayOf(1.0)) }
+    }
+
+    @Test
     fun emptyChartsSayThatThereIsNoData() {
+        val none = NullDistributions("t", "", listOf(NullDistribution("a", Double.NaN, doubleArrayOf(1.0, 2.0))))
+        assertContains(SvgParts(none.draw()).texts, "no data")
         assertContains(SvgParts(LinePlot("t", "", emptyList(), "x", "y").draw()).texts, "no data")
         assertContains(SvgParts(Bars("t", "", listOf(Bar("a", Double.NaN)), "u").draw()).texts, "no data")
         assertContains(SvgParts(Histogram.of("t", "", doubleArrayOf(Double.NaN), 5, "u").draw()).texts, "no data")

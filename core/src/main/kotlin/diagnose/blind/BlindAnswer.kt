@@ -265,6 +265,7 @@ internal class BlindAnswer(
             noise.share,
             noise.time,
             DoubleArray(series.size) { state.whitened[it] / spread },
+            state.fit::nullResiduals,
         )
     }
 

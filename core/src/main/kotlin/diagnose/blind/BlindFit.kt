@@ -3,10 +3,14 @@ package stillwater.diagnose.blind
 import stillwater.diagnose.algebra.Cholesky
 import stillwater.diagnose.algebra.FourColumns
 import stillwater.diagnose.algebra.squares
+import stillwater.diagnose.independentResiduals
 import stillwater.diagnose.noise.CorrelatedNoise
 import stillwater.diagnose.noise.PlaceErrors
 import stillwater.diagnose.noise.PlacedNoise
+import stillwater.diagnose.standardNormal
 import kotlin.math.ln
+import kotlin.math.sqrt
+import kotlin.random.Random
 
 /**
  * How readings are whitened: each is divided by its own spread, then the correlation of [noise] is taken off, and that of
@@ -143,6 +147,23 @@ internal class BlindFit private constructor(
         val z = whitened(r)
         val shown = design.times(moved(z))
         return DoubleArray(n) { z[it] - shown[it] }
+    }
+
+    /**
+     * What would be left of readings that the model is right about, whitened, over the noise's standard deviation: [count]
+     * draws of the normal numbers whose covariance is I − R H⁻¹ Rᵀ, H = RᵀR + Λ. For ε and ξ independent of variance 1
+     * that is the covariance of ε − R H⁻¹ (Rᵀε + Λ^½ ξ).
+     */
+    fun nullResiduals(count: Int, random: Random): List<DoubleArray> {
+        val noise = independentResiduals(design.noise.noise.used).draw(count, random)
+        val pulls = design.transposed(noise)
+        for (pull in pulls) {
+            val prior = standardNormal(size, random)
+            for (k in 0 until size) pull[k] += sqrt(precisions[k]) * prior[k]
+        }
+        val taken = design.times(Array(count) { solved(pulls[it]) })
+        for (draw in 0 until count) for (i in 0 until n) noise[draw][i] -= taken[draw][i]
+        return noise
     }
 
     /** [column] of readings, whitened, less what the water can imitate of it. */

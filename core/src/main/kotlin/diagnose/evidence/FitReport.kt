@@ -4,6 +4,7 @@ import stillwater.diagnose.Estimate
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.algebra.SymmetricSystem
+import stillwater.diagnose.independentResiduals
 import stillwater.diagnose.response.Fitting
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.Parameter
@@ -52,6 +53,7 @@ internal class FitReport(
         fit.noise.share,
         fit.noise.time,
         fit.whitened.let { z -> DoubleArray(z.size) { z[it] / sqrt(maxOf(fit.variance, 1e-300)) } },
+        independentResiduals(used),
     )
 
     /**

@@ -4,6 +4,7 @@ import stillwater.diagnose.DiagnosisResult
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
+import stillwater.diagnose.independentResiduals
 import stillwater.diagnose.isFlat
 import stillwater.sensor.SensorSpec
 
@@ -79,6 +80,7 @@ internal object TooLittle {
             0.0,
             0.0,
             DoubleArray(series.size),
+            independentResiduals(series.readRows()),
         )
         return DiagnosisResult(
             Verdict.InsufficientData(why),

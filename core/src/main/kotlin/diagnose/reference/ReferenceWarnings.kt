@@ -4,6 +4,7 @@ import stillwater.diagnose.Dependence
 import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnose.Verdict
 import stillwater.diagnose.evidence.AnyResponse
+import stillwater.diagnose.evidence.AveragedNoise
 import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.evidence.Spikes
 import stillwater.diagnose.evidence.StillReadings
@@ -58,6 +59,7 @@ internal class ReferenceWarnings(
                     "what comes and goes as slowly, as a pump that stops for a while, is not told from it.",
             )
         }
+        AveragedNoise.of(last.whitened, series.values, series.times)?.let { add(it.sentence()) }
         unknown?.words()?.let(::add)
         if (late > 0) add("Put right before the causes were weighed: ${ReferenceLead.words(late)}.")
         caution?.let(::add)

@@ -7,6 +7,7 @@ import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
 import stillwater.diagnose.algebra.squares
 import stillwater.diagnose.evidence.TooLittle
+import stillwater.diagnose.independentResiduals
 import stillwater.diagnose.response.Resolution
 import stillwater.diagnose.response.Scales
 import stillwater.diagnose.three
@@ -64,6 +65,7 @@ internal class UnwrittenMoves(
             0.0,
             0.0,
             DoubleArray(series.size) { if (spread > 0) left[it] / spread else 0.0 },
+            independentResiduals(isRead),
         )
         val stages = listOf(SensorStage.Lag(tau), SensorStage.Calibration(gain, offset)) +
             listOf(SensorStage.Noise(spread)).filter { spread > 0 }

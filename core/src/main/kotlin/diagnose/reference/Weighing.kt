@@ -52,7 +52,7 @@ internal class Weighing(
     private val settings: DiagnosisSettings,
     private val late: Double,
     private val before: Double,
-    loops: Loops,
+    private val loops: Loops,
     told: (Int) -> Unit,
 ) {
     private val series = base.model.series
@@ -298,6 +298,9 @@ internal class Weighing(
         val isTwoPath = chosen.any { it.term.cause == Cause.TWO_PATH_RESPONSE }
         faults.words(explained, isTwoPath)?.let { return Verdict.Unexplained(it) }
         SlowRivals(last, chosen).words()?.let { return Verdict.Unexplained(it) }
+        if (chosen.isNotEmpty() || isStructured) {
+            RunningMean(base, chosen, search.longest, loops).words()?.let { return Verdict.Unexplained(it) }
+        }
         val lasting = loose.lasting.size
         return when {
             lasting >= FEWEST_CHANGES && loose.lastingPValue * tried < settings.level && chosen.isEmpty() ->

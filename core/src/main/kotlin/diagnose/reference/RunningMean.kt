@@ -1,0 +1,131 @@
+package stillwater.diagnose.reference
+
+import stillwater.diagnose.Cause
+import stillwater.diagnose.Loops
+import stillwater.diagnose.all
+import stillwater.diagnose.evidence.AveragedNoise
+import stillwater.diagnose.evidence.Trial
+import stillwater.diagnose.evidence.without
+import stillwater.diagnose.response.ModelFit
+import stillwater.diagnose.response.ReferenceLead
+import stillwater.diagnose.response.ResponseModel
+import stillwater.diagnose.response.Steps
+import stillwater.diagnose.three
+import kotlin.math.exp
+import kotlin.math.ln
+
+/**
+ * Readings that an instrument gives as means over the last seconds: no cause of the list, and much like a dead time of half of
+ * these with a second lag.
+ *
+ * The mean of what a lag shows is what it shows of the truth's mean, ∫ₜ₋ᵥᵗ truth ds / V, so that one log with another
+ * reference for each V tells. The truth goes on evenly between rows or is held over each step ([Steps]), which of a few rows'
+ * mean is most of what there is to see.
+ *
+ * @param base the model without causes. @param chosen causes, one after the other.
+ */
+internal class RunningMean(
+    private val base: ModelFit,
+    private val chosen: List<Trial>,
+    private val longest: Double,
+    private val loops: Loops,
+) {
+    private val last = chosen.lastOrNull()?.fit ?: base
+    private val series = base.model.series
+    private val times = series.times
+
+    private val truth = requireNotNull(series.reference) { "there is a truth to take means of" }
+    private val even = integral { (truth[it - 1] + truth[it]) / 2 }
+    private val held = integral { truth[it] }
+
+    /** Of the truth up to each row, sensor units · s, where that is on average [over] the step to a row. */
+    private fun integral(over: (Int) -> Double) = DoubleArray(times.size).also { sum ->
+        for (i in 1 until sum.size) sum[i] = sum[i - 1] + over(i) * (times[i] - times[i - 1])
+    }
+
+    private class Found(val window: Double, val explained: Double, val timeConstant: Double)
+
+    /**
+     * That readings are running means, in words, where that explains the log better than the delays and further lags among
+     * what was chosen, or, where there are none, than nothing, or where delays were chosen and the noise is averaged; else null.
+     */
+    fun words(): String? {
+        val gone = chosen.filter { it.term.cause in ReferenceLead.ALIKE }
+        return mean(gone) ?: if (gone.isEmpty()) null else averaged?.words()
+    }
+
+    private val averaged get() = AveragedNoise.of(last.whitened, series.values, series.times)
+
+    private fun mean(gone: List<Trial>): String? {
+        val explained = last.score - chosen.sumOf { it.cost }
+        val best = best(gone) ?: return null
+        if (best.explained < explained + CLEARLY) return null
+        val lag =
+            if (best.timeConstant < series.period / 2) "" else " of what a lag of ${three(best.timeConstant)} s shows"
+        return "the readings look like running means over ${three(
+            best.window,
+        )} s$lag, as an instrument that averages " +
+            "gives them: half of that, ${three(best.window / 2)} s, they are late"
+    }
+
+    /** The likeliest window; null where that is the shortest or the longest that is looked for. */
+    private fun best(gone: List<Trial>): Found? {
+        val kept = chosen.sumOf { it.cost } - gone.sumOf { it.cost }
+        fun at(window: Double, steps: Steps) = fit(window, steps, gone).let {
+            Found(window, it.score - kept - WINDOW, it.numbers[ResponseModel.TIME_CONSTANT])
+        }
+        val windows = generateSequence(SHORTEST * series.period) { it * FACTOR }
+            .takeWhile { it < minOf(series.duration / PARTS, longest) }.toList()
+        if (windows.isEmpty()) return null
+        return loops.all(WAYS) { way ->
+            var best = loops.all(windows) { at(it, way) }.maxBy { it.explained }
+            var step = ln(FACTOR)
+            repeat(REFINEMENTS) {
+                step /= 2
+                val beside = loops.all(listOf(exp(-step), exp(step))) { at(best.window * it, way) }
+                best = (beside + best).maxBy { it.explained }
+            }
+            best
+        }.maxBy { it.explained }.takeIf { it.window in SHORTEST * series.period..windows.last() }
+    }
+
+    private fun fit(window: Double, steps: Steps, gone: List<Trial>): ModelFit {
+        val log = series.withQuieter(means(window, if (steps.isHeld) held else even))
+        val tau = maxOf(base.numbers[ResponseModel.TIME_CONSTANT] - window / 2, series.period)
+        return last.without(gone, tau, base.model.scales.of(log), steps, last.noise.used, longest)
+    }
+
+    /** Means over [window] s before each row of the truth of which [integral] is; before the log it was what its first row has. */
+    private fun means(window: Double, integral: DoubleArray): DoubleArray {
+        var k = 0
+        return DoubleArray(times.size) { i ->
+            val from = times[i] - window
+            while (k + 1 < times.size && times[k + 1] <= from) k++
+            val before = if (from < times[0]) {
+                truth[0] * (from - times[0])
+            } else {
+                val share = (from - times[k]) / (times[k + 1] - times[k])
+                integral[k] + share * (integral[k + 1] - integral[k])
+            }
+            (integral[i] - before) / window
+        }
+    }
+
+    private companion object {
+        val WAYS = listOf(Steps.EVEN, Steps.HELD)
+
+        /** Rows, and the ratio of one window that is tried to the one before. */
+        const val SHORTEST = 2.0
+        const val FACTOR = 1.5
+
+        /** Of the log: a window that is longer is seen to end in few of its parts. */
+        const val PARTS = 10
+        const val REFINEMENTS = 4
+
+        /** Twice the log-likelihood that the best of so many windows gains by chance. */
+        const val WINDOW = 6.0
+
+        /** The same by which this must be likelier than causes of the list, which are common. */
+        const val CLEARLY = 18.0
+    }
+}
