@@ -35,6 +35,13 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed, private val su
     private val time = DoubleArray(n) { columns.times[it] - columns.times[0] }
     private val residual = DoubleArray(n) { columns.values[it] - result.baseline.predicted[it] }
     private val stride = maxOf(1, n / MOST_POINTS)
+
+    /** How fast the base's prediction changes at each row, sensor units/s. */
+    private val rate = DoubleArray(n) { i ->
+        val from = maxOf(i - 1, 0)
+        val to = minOf(i + 1, n - 1)
+        if (to == from) 0.0 else result.baseline.predicted.let { (it[to] - it[from]) / (time[to] - time[from]) }
+    }
     private val track by lazy { TrackSeries(columns.times, columns.x, columns.y, columns.values) }
     private val means by lazy {
         val base = result.baseline
@@ -51,12 +58,10 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed, private val su
 
     private fun drawings(): List<() -> DiagnosisFigure> = buildList {
         add { predicted() }
-        causes().forEach { add { cause(it) } }
-        if (Cause.OUTLIERS in named) add { outliers() }
-        if (Cause.TIME_VARYING_FIELD in named) result.revisits?.let { add { revisits(it) } }
+        addAll(CauseFigures(diagnosed, residual, rate, ::curve).drawings())
         add { against("time", "Time since the first row (s)", time) }
         add { against("value", "Predicted value of $quantity", result.baseline.predicted) }
-        add { against("rate", "Predicted rate of change (${diagnosed.inUnit("sensor units")}/s)", rate()) }
+        add { against("rate", "Predicted rate of change (${diagnosed.inUnit("sensor units")}/s)", rate) }
         if (moves) {
             // As they were tested.
             val series = diagnosed.log.series
@@ -194,102 +199,13 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed, private val su
             "it is right about (the densities). A mark far from its density is structure that the model has not.",
     )
 
-    /** The causes of the answer. */
-    private val named: List<Cause> = when (val verdict = result.verdict) {
-        is Verdict.Named -> verdict.causes
-        is Verdict.Ambiguous -> verdict.sets.flatten()
-        else -> emptyList()
-    }
-
-    /** The causes of the answer, and others that look likely. */
-    private fun causes(): List<Candidate> = result.candidates.filter {
-        it.cause !in beside && (it.cause in named || it.adjustedPValue < 0.05)
-    }
-        .distinctBy { it.cause }
-
-    private fun cause(candidate: Candidate): DiagnosisFigure {
-        val change = DoubleArray(n) { candidate.predicted[it] - result.baseline.predicted[it] }
-        val series = listOf(curve("residual of the base", residual), curve("what the cause adds", change))
-        val isNamed = candidate.cause in named
-        val plot = LinePlot(
-            candidate.cause.label,
-            if (isNamed) "" else "likely by itself, but not named",
-            series,
-            "Time since the first row (s)",
-            quantity,
-            references = listOf(0.0),
-        )
-        val caption = when {
-            isNamed -> candidate.cause.sentence
-            result.verdict is Verdict.Unexplained ->
-                "A hint, and not named: it explains a part and not the rest. Tried was: ${candidate.cause.sentence}"
-            else -> "Not named. Tried was: ${candidate.cause.sentence}"
-        }
-        return DiagnosisFigure("cause-${candidate.cause.label}", plot.draw(), caption)
-    }
-
-    /** Causes that do not show in what the model predicts. */
-    private val beside = setOf(Cause.OUTLIERS, Cause.TIME_VARYING_FIELD)
-
-    private fun outliers(): DiagnosisFigure {
-        val far = result.spikes
-        val series = listOf(
-            Series("residual of the base", time, residual, mark = Mark.POINTS),
-            Series(
-                "far off",
-                DoubleArray(far.size) { time[far[it]] },
-                DoubleArray(far.size) { residual[far[it]] },
-                mark = Mark.POINTS,
-            ),
-        )
-        val label = Cause.OUTLIERS.label
-        val plot = LinePlot(label, "", series, "Time since the first row (s)", quantity, references = listOf(0.0))
-        return DiagnosisFigure("cause-$label", plot.draw(), Cause.OUTLIERS.sentence)
-    }
-
-    /** What the reference says where the track crosses itself. */
-    private fun revisits(revisits: Revisits): DiagnosisFigure {
-        val shown = revisits.later.indices step maxOf(1, revisits.later.size / MOST_POINTS)
-        val longest = revisits.later.max()
-        val series = listOf(
-            Series(
-                "crossings",
-                shown.map { revisits.later[it] }.toDoubleArray(),
-                shown.map { revisits.higher[it] }.toDoubleArray(),
-                mark = Mark.POINTS,
-            ),
-            Series("even change", doubleArrayOf(0.0, longest), doubleArrayOf(0.0, longest * revisits.rate)),
-        )
-        val label = Cause.TIME_VARYING_FIELD.label
-        val plot = LinePlot(
-            label,
-            "",
-            series,
-            "Time between two visits of a place (s)",
-            "Change of the reference",
-            references = listOf(0.0),
-        )
-        return DiagnosisFigure("cause-$label", plot.draw(), Cause.TIME_VARYING_FIELD.sentence)
-    }
-
-    private fun rate() = DoubleArray(n) { i ->
-        val from = maxOf(i - 1, 0)
-        val to = minOf(i + 1, n - 1)
-        if (to ==
-            from
-        ) {
-            0.0
-        } else {
-            (result.baseline.predicted[to] - result.baseline.predicted[from]) / (time[to] - time[from])
-        }
-    }
-
     private fun degrees(radians: DoubleArray) = DoubleArray(radians.size) { Math.toDegrees(radians[it]).mod(360.0) }
 
     private fun spread(column: DoubleArray) = (column.maxOrNull() ?: 0.0) - (column.minOrNull() ?: 0.0)
 
     companion object {
-        private const val MOST_POINTS = 2000
+        /** Points in a figure. */
+        const val MOST_POINTS = 2000
         private const val MOST_LAGS = 60
         private const val IN_PARTS =
             "The base model's residuals; the line is their mean in twenty equal parts, with two standard errors that " +
@@ -304,6 +220,6 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed, private val su
         /** All names that a figure may have. */
         val NAMES = WHITENED + "predicted" +
             listOf("time", "value", "rate", "speed", "heading", "position", "temperature").map { "residuals-$it" } +
-            Cause.entries.map { "cause-${it.label}" }
+            CauseFigures.NAMES
     }
 }

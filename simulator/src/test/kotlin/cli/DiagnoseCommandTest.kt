@@ -214,7 +214,13 @@ class DiagnoseCommandTest {
             fields,
         )
         SensorSpec.fromJson(Files.readString(out.resolve("extended-sensor.json")))
-        for (name in listOf("residuals.csv", "report.html", "predicted.svg", "cause-asymmetric-response.png")) {
+        for (name in listOf(
+            "residuals.csv",
+            "report.html",
+            "predicted.svg",
+            "cause-asymmetric-response.png",
+            "checks.png",
+        )) {
             assertTrue(out.resolve(name).exists(), name)
         }
     }
