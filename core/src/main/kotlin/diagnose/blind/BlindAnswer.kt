@@ -108,7 +108,7 @@ internal class BlindAnswer(
                 unknown.map(UnknownSize::words) + besideNamed(isNamed) + sensor.losses.takeIf { isNamed }.orEmpty() +
                 estimates.bounds.distinct(),
             mayHaveChanged = isLikelyChange,
-            lag = lag.channel(""),
+            lag = lag.channel("", assessed(lag.timeConstant).errors[ResponseModel.TIME_CONSTANT]),
         )
     }
 

@@ -94,7 +94,9 @@ internal class BlindDiagnosis(
     fun channel(name: String): ChannelLag {
         if (TooLittle.why(series) != null) return ChannelLag(name, Double.NaN, Double.NaN)
         val (base, _) = prepared(search.best())
-        return lag(base, search.still(base)).channel(name).also { progress(1.0) }
+        val lag = lag(base, search.still(base))
+        val errors = BlindAssessed(search, lag.timeConstant).errors
+        return lag.channel(name, errors[ResponseModel.TIME_CONSTANT]).also { progress(1.0) }
     }
 
     /** The time constant of a lag alone; null where passes do not show it. */

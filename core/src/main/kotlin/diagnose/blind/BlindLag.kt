@@ -6,6 +6,7 @@ import stillwater.diagnose.algebra.squares
 import stillwater.diagnose.all
 import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Term
+import kotlin.math.ln
 import kotlin.math.sqrt
 
 /**
@@ -155,9 +156,12 @@ internal class BlindLag(
         (other.score - suited.score) / inflation > MUCH &&
             1 / BlindErrors.of(search, other)[ResponseModel.TIME_CONSTANT] > SURE
 
-    /** The delay as that of the channel [name], with what steps that are held add to it, or take. */
-    fun channel(name: String): ChannelLag {
-        if (!isSeen) return ChannelLag(name, Double.NaN, Double.NaN)
+    /**
+     * The delay as that of the channel [name], with what steps that are held add to it, or take; none where the time constant,
+     * whose logarithm may be off by [error], is anything from one to ten.
+     */
+    fun channel(name: String, error: Double): ChannelLag {
+        if (!isSeen || 2 * BlindErrors.REACH * error > ln(ANY)) return ChannelLag(name, Double.NaN, Double.NaN)
         return ChannelLag(name, delay - deadTime.model.steps.lead * period, delayError)
     }
 
@@ -180,6 +184,9 @@ internal class BlindLag(
         /** Student's t with 23 degrees of freedom, two-sided 1 %. */
         const val SURE = 2.8
         private const val STEPS = 6
+
+        /** The ratio of the ends of a time constant's interval from which on the log does not tell how late readings are. */
+        private const val ANY = 10.0
         private const val REFINEMENTS = 8
         private val STARTS = listOf(0.5, 1.0)
     }

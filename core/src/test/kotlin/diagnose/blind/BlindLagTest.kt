@@ -7,7 +7,9 @@ import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Term
 import java.util.Random
 import kotlin.test.Test
+import kotlin.test.assertEquals
 import kotlin.test.assertFalse
+import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
 /** Which kind of lag there is, once a model has both beside what else was found. */
@@ -38,6 +40,16 @@ class BlindLagTest {
         }
         // Who has not looked at a dead time does not know.
         assertFalse(lag.isToldIn(lag.timeConstant, sure), "seed $SEED")
+    }
+
+    /** On part of Lac Hertel's log a temperature with a lag of 3.8 to 1100 s had a delay of 32.5 ± 0.1 s. */
+    @Test
+    fun whereTheTimeConstantMayBeAnythingAChannelHasNoDelay() {
+        // A lag of 5 s delays waves by less than that.
+        assertEquals(4.0, lag.channel("temp_c", 0.1).delay, 1.0, "seed $SEED")
+        assertTrue(lag.channel("temp_c", 0.55).isSeen)
+        assertFalse(lag.channel("temp_c", 0.56).isSeen, "its interval reaches over more than ten times")
+        assertNull(lag.channel("temp_c", 3.0).interval)
     }
 
     private companion object {
