@@ -97,7 +97,14 @@ internal class BaseModels(
         return forms.map { ResponseModel(series, it, steps, scales) }.flatMap { model ->
             val free = BooleanArray(model.parameters.size) { it < ResponseModel.BASE || it in model.firstStates }
             val starts = given?.let { listOf(it.numbers(model)) } ?: Starts.ofLags(model)
-            starts.map { Fitting.fit(model, it, free, used, longest) }
+            val fits = starts.map { Fitting.fit(model, it, free, used, longest) }
+            if (given == null &&
+                ConstantTruth.isOf(series)
+            ) {
+                listOf(ConstantTruth(series, used, longest).base(fits))
+            } else {
+                fits
+            }
         }.maxBy { it.score - CauseSearch.OWN_START * it.model.firstStates.size }
     }
 

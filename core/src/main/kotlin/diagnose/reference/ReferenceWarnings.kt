@@ -44,15 +44,16 @@ internal class ReferenceWarnings(
         still: StillReadings,
     ): List<String> = buildList {
         val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
+        val isAnswered = verdict !is Verdict.Consistent && verdict !is Verdict.InsufficientData
         if (named && most.adjusted < settings.structureLevel) {
             add("Structure is left beside what was named: the residuals depend on ${most.description}.")
         }
         uneven?.takeIf { named }?.let { add("Beside what was named $it.") }
         steps(verdict)?.let(::add)
         apart(verdict)?.let(::add)
-        if (verdict !is Verdict.Consistent && verdict !is Verdict.InsufficientData && AnyResponse.hardlyTurns(series)) {
-            add(ONE_WAY)
-        }
+        val isConstant = ConstantTruth.isOf(series)
+        if (isConstant && named) add(ConstantTruth.caution(base))
+        if (!isConstant && isAnswered && AnyResponse.hardlyTurns(series)) add(ONE_WAY)
         if (verdict is Verdict.Consistent && mayHide) {
             add(
                 "The noise that was found wanders for ${three(last.noise.time)} s at a time, longer than the lag is: " +

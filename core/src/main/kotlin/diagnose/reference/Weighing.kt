@@ -29,6 +29,7 @@ import stillwater.diagnose.response.ReferenceLead
 import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.SpikeSize
 import stillwater.diagnose.response.Term
+import stillwater.diagnose.response.isAdded
 import stillwater.diagnose.response.isTiming
 import stillwater.diagnose.three
 import stillwater.model.Conditions
@@ -59,10 +60,10 @@ internal class Weighing(
     private val scales = base.model.scales
     private val report = FitReport(series, used, isOpen = before == 0.0)
     private val baseHeldOut = HeldOut.score(base, used)
-    private val terms = terms()
+    private val truth = requireNotNull(series.reference) { "weighing needs a reference" }
+    private val terms = terms().filter { it.cause.isAdded || !ConstantTruth.isOf(series) }
     private val forward = ForwardSearch(search, base, baseHeldOut, terms, settings, loops) { told(terms.size) }
 
-    private val truth = requireNotNull(series.reference) { "weighing needs a reference" }
     private val water = ChangingWater(series, truth)
 
     /**
@@ -251,9 +252,7 @@ internal class Weighing(
             structured && isMore(left) -> coarse.left()?.let(Verdict::InsufficientData)
                 ?: Verdict.Unexplained(LeftOver(base, chosen).words(left))
             sets.isNotEmpty() && coarse.chosen != null -> Verdict.InsufficientData(checkNotNull(coarse.chosen))
-            all.isEmpty() && isFlat(truth) -> Verdict.InsufficientData(
-                "the truth never changes, so that neither a lag nor a gain can show",
-            )
+            all.isEmpty() && ConstantTruth.isOf(series) -> Verdict.InsufficientData(ConstantTruth.words(base))
             all.isEmpty() -> (passing() ?: uneven)?.let(Verdict::Unexplained) ?: Verdict.Consistent
             all.any { it.size > 1 } -> Verdict.Ambiguous(all)
             else -> Verdict.Named(all.map { it.single() })

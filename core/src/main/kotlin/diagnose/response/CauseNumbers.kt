@@ -36,3 +36,10 @@ internal val Cause.isTiming: Boolean
         -> true
         else -> false
     }
+
+/** Whether this is added to the reading, whatever the truth does. */
+internal val Cause.isAdded: Boolean
+    get() = when (this) {
+        Cause.GAIN_OFFSET, Cause.CROSS_SENSITIVITY, Cause.DRIFT, Cause.OFFSET_STEPS, Cause.QUANTISATION -> true
+        else -> false
+    }
