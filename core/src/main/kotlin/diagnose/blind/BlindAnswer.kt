@@ -16,6 +16,7 @@ import stillwater.diagnose.evidence.StillReadings
 import stillwater.diagnose.evidence.SuddenChanges
 import stillwater.diagnose.evidence.UnevenNoise
 import stillwater.diagnose.response.ExtendedSensor
+import stillwater.diagnose.response.ReferenceLead
 import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Term
 import stillwater.diagnose.three
@@ -79,7 +80,9 @@ internal class BlindAnswer(
         val isOthers = end.looksAsIs[strongest].ratio > LEFT * lag.seen ||
             (chosen.isEmpty() && (end.look(strongest).ofBoat || left.first().adjusted < certain))
         // One number for many readings hides all else; what hides in noise shows where nothing was found.
-        val unlisted = still.words(level) ?: if (all.isEmpty()) SuddenChanges.words(last.whitened) else null
+        val isDelayed = told.any { set -> set.any { it in ReferenceLead.ALIKE } }
+        val unlisted = still.words(level) ?: last.averaged?.takeIf { isDelayed }?.words()
+            ?: if (all.isEmpty()) SuddenChanges.words(last.whitened) else null
         val verdict = verdict(all, left.first(), strongest, end, isOthers, causes, unlisted)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         // Where nothing was chosen a lag of either kind was named: the base stands for it, or both kinds in a row.

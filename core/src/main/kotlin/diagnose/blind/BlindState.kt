@@ -1,6 +1,7 @@
 package stillwater.diagnose.blind
 
 import stillwater.diagnose.algebra.squares
+import stillwater.diagnose.evidence.AveragedNoise
 import stillwater.diagnose.noise.CorrelatedNoise
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ResponseModel
@@ -37,6 +38,9 @@ internal class BlindState(
 
     /** Residuals, whitened, without what the water takes. */
     val whitened: DoubleArray by lazy { fit.residual(residuals) }
+
+    /** What the residuals say of an instrument that averages its readings; null for nothing. */
+    val averaged: AveragedNoise? by lazy { model.series.let { AveragedNoise.of(whitened, it.values, it.times) } }
 
     /** What the model shows, sensor units, length n. */
     val shown: DoubleArray get() = DoubleArray(residuals.size) { model.series.values[it] - residuals[it] }

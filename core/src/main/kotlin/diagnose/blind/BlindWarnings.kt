@@ -5,7 +5,6 @@ import stillwater.diagnose.Dependence
 import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.Verdict
-import stillwater.diagnose.evidence.AveragedNoise
 import stillwater.diagnose.evidence.CoarseRounding
 import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.evidence.Spikes
@@ -68,7 +67,7 @@ internal class BlindWarnings(
                     "passes looks like a sensor that also shows it.",
             )
         }
-        AveragedNoise.of(last.whitened, series.values, series.times)?.let { add(it.sentence()) }
+        last.averaged?.let { add(it.sentence()) }
         addAll(listOfNotNull(search.fixes.words(last), rounding?.words(), search.gaps?.words()))
         still.repeats()?.let(::add)
         val off = outliers.rows.size
