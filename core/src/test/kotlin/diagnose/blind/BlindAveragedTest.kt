@@ -36,7 +36,8 @@ class BlindAveragedTest {
     fun itIsToldAndNoDelayIsNamed() {
         for (seed in 4101L..4103L) {
             val result = Diagnosis(survey(over = 13, seed)).run()
-            assertContains(result.warnings.joinToString(), "averages over 13.0 s", message = "seed $seed: ${result.verdict}")
+            val warnings = result.warnings.joinToString()
+            assertContains(warnings, "averages over 13.0 s", message = "seed $seed: ${result.verdict}")
             val named = (result.verdict as? Verdict.Named)?.causes.orEmpty()
             assertTrue(named.none { it == Cause.DEAD_TIME || it == Cause.SECOND_ORDER_RESPONSE }, "seed $seed: $named")
         }
