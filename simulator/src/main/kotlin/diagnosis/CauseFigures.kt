@@ -30,8 +30,7 @@ internal class CauseFigures(
     private val n = columns.size
     private val time = DoubleArray(n) { columns.times[it] - columns.times[0] }
     private val stride = maxOf(1, n / DiagnosisFigures.MOST_POINTS)
-    private val residualLabel = "Measured less predicted" +
-        diagnosed.unitAfter.trim().let { if (it.isEmpty()) "" else " ($it)" }
+    private val residualLabel = diagnosed.residualLabel
 
     /** The causes of the answer. */
     private val named: List<Cause> = when (val verdict = result.verdict) {

@@ -39,6 +39,9 @@ class Diagnosed(
     /** The unit after a number, with a blank before it; empty without one. */
     val unitAfter: String = unit?.let { " $it" }.orEmpty()
 
+    /** What a residual is, with its unit. */
+    val residualLabel: String = "Measured less predicted" + unit?.let { " ($it)" }.orEmpty()
+
     /**
      * Labels of the causes of the answer: those named, the certain ones of an ambiguous answer; `none`,
      * `unexplained`.

@@ -29,8 +29,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed, private val su
     private val columns = diagnosed.log.columns
     private val result = diagnosed.result
     private val quantity = diagnosed.quantity
-    private val residualLabel = "Measured less predicted" +
-        diagnosed.unitAfter.trim().let { if (it.isEmpty()) "" else " ($it)" }
+    private val residualLabel = diagnosed.residualLabel
     private val n = columns.size
     private val time = DoubleArray(n) { columns.times[it] - columns.times[0] }
     private val residual = DoubleArray(n) { columns.values[it] - result.baseline.predicted[it] }
@@ -188,13 +187,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed, private val su
 
     private fun checks() = DiagnosisFigure(
         CHECKS,
-        NullDistributions(
-            "Residuals against their null distributions",
-            "",
-            diagnosed.checks.all.map {
-                it.drawn()
-            },
-        ).draw(),
+        NullDistributions(NULLS, "", diagnosed.checks.all.map { it.drawn() }).draw(),
         "What the whitened residuals of the best model have (the marks), and what they have in simulated logs that " +
             "it is right about (the densities). A mark far from its density is structure that the model has not.",
     )
@@ -213,6 +206,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed, private val su
 
         private const val CORRELATION = "correlation"
         private const val CHECKS = "checks"
+        private const val NULLS = "Residuals and their null distributions"
 
         /** Names of figures of whitened residuals. */
         val WHITENED = listOf(CORRELATION, CHECKS)

@@ -1,6 +1,5 @@
 package stillwater.diagnose.reference
 
-import stillwater.diagnose.Cause
 import stillwater.diagnose.Loops
 import stillwater.diagnose.all
 import stillwater.diagnose.evidence.AveragedNoise
@@ -50,6 +49,8 @@ internal class RunningMean(
      * what was chosen, or, where there are none, than nothing, or where delays were chosen and the noise is averaged; else null.
      */
     fun words(): String? {
+        // How the truth went between rows far apart is not known.
+        if (series.isSparse) return null
         val gone = chosen.filter { it.term.cause in ReferenceLead.ALIKE }
         return mean(gone) ?: if (gone.isEmpty()) null else averaged?.words()
     }
@@ -62,10 +63,9 @@ internal class RunningMean(
         if (best.explained < explained + CLEARLY) return null
         val lag =
             if (best.timeConstant < series.period / 2) "" else " of what a lag of ${three(best.timeConstant)} s shows"
-        return "the readings look like running means over ${three(
-            best.window,
-        )} s$lag, as an instrument that averages " +
-            "gives them: half of that, ${three(best.window / 2)} s, they are late"
+        val window = three(best.window)
+        return "the readings look like running means over $window s$lag, as an instrument that averages gives them: " +
+            "half of that, ${three(best.window / 2)} s, they are late"
     }
 
     /** The likeliest window; null where that is the shortest or the longest that is looked for. */
