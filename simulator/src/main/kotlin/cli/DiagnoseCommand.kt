@@ -93,6 +93,9 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         compare.firstOrNull { it == opened.quantity }?.let {
             throw BadFlag("--compare", "another column than the readings'", "'$it'")
         }
+        conditions.firstOrNull { it.second == opened.quantity }?.let { (name, column) ->
+            throw BadFlag("--condition", "another column than the readings'", "'$name=$column'")
+        }
         if (reference == opened.quantity) {
             throw BadFlag("--reference", "another column than the readings'", "'$reference'")
         }

@@ -29,9 +29,14 @@ internal class Calibration(private val diagnosed: Diagnosed) {
         val errors = ends.map { (gain.value - 1) * it + offset.value }
         val rounding = ROUNDING * ends.maxOf { abs(it) }
         if (errors.all { abs(it) <= maxOf(model.trainRmse, rounding) }) return null
-        return "calibration against the reference: gain ${diagnosed.number(gain)}, " +
-            "offset ${diagnosed.number(offset)}; the sensor reads " +
-            ends.indices.joinToString(" and ") { high(errors[it], ends[it]) }
+        // Of a reference that never changes a gain is not known.
+        val numbers = if (ends.distinct().size < 2) {
+            ""
+        } else {
+            "gain ${diagnosed.number(gain)}, offset ${diagnosed.number(offset)}; "
+        }
+        return "calibration against the reference: ${numbers}the sensor reads " +
+            ends.indices.map { high(errors[it], ends[it]) }.distinct().joinToString(" and ")
     }
 
     private fun isOff(estimate: Estimate, neutral: Double) =

@@ -206,7 +206,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed, private val su
 
         private const val CORRELATION = "correlation"
         private const val CHECKS = "checks"
-        private const val NULLS = "Residuals and their null distributions"
+        private const val NULLS = "Residuals of the best model and their null distributions"
 
         /** Names of figures of whitened residuals. */
         val WHITENED = listOf(CORRELATION, CHECKS)

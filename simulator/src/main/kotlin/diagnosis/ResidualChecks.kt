@@ -42,9 +42,9 @@ internal class ResidualChecks(
         return at(LOWER) to at(UPPER)
     }
 
-    /** Whether the base's residuals go with what rounding does to its prediction. */
+    /** Whether the base's residuals go with what rounding does to its prediction; null where that is next to nothing. */
     private fun rounding(): ResidualCheck? {
-        val step = ValueResolution.of(values).takeIf { it > 0 } ?: return null
+        val step = ValueResolution.of(values).takeIf { it > FINE * base.noiseSpread } ?: return null
         val rounding = base.predicted.let { shown ->
             DoubleArray(shown.size) { round(shown[it] / step) * step - shown[it] }
         }
@@ -80,6 +80,9 @@ internal class ResidualChecks(
         private const val PORTMANTEAU = 20
         private const val TENTHS = 10
         private const val SMALLEST = 1e-300
+
+        /** Of what readings scatter: rounding to less is nothing. */
+        private const val FINE = 0.01
 
         private val STATISTICS: List<Pair<String, (DoubleArray) -> Double>> = listOf(
             "correlation of neighbours" to { correlations(it, 1)[0] },

@@ -4,6 +4,7 @@ import com.github.ajalt.clikt.core.subcommands
 import com.github.ajalt.clikt.testing.test
 import org.junit.jupiter.api.DynamicTest
 import org.junit.jupiter.api.DynamicTest.dynamicTest
+import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.TestFactory
 import org.junit.jupiter.api.io.TempDir
 import stillwater.cli.DiagnoseCommand
@@ -21,6 +22,7 @@ import kotlin.math.sin
 import kotlin.random.Random
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
+import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
 /** What was named is drawn against what it goes with. Seed fixed before the first run. */
@@ -66,6 +68,19 @@ class CauseFiguresTest {
             ),
             Triple(Cause.SATURATION, listOf(lag, noise, SensorStage.Range(null, 8.6)), "Predicted value of do_mg_l"),
         ).map { (cause, stages, label) -> dynamicTest(cause.label) { assertDrawn(cause, stages, label) } }
+    }
+
+    @Test
+    fun theReadingsThemselvesAreNoCondition() {
+        val file = log("itself", listOf(SensorStage.Lag(6.0), SensorStage.Noise(0.01)))
+        val out = directory.resolve("none")
+        val columns = listOf("--value", "do_mg_l", "--reference", "truth", "--condition", "v=do_mg_l")
+        val result = Stillwater().subcommands(
+            DiagnoseCommand(),
+        ).test(listOf("diagnose", "$file", "--out", "$out") + columns)
+        assertEquals(2, result.statusCode)
+        assertContains(result.stderr, "expected another column than the readings', found 'v=do_mg_l'")
+        assertFalse(out.exists())
     }
 
     private fun assertDrawn(cause: Cause, stages: List<SensorStage>, label: String) {

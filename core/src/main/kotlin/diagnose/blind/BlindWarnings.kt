@@ -67,7 +67,7 @@ internal class BlindWarnings(
                     "passes looks like a sensor that also shows it.",
             )
         }
-        last.averaged?.let { add(it.sentence()) }
+        last.averaged?.sentenceBeside(verdict)?.let(::add)
         addAll(listOfNotNull(search.fixes.words(last), rounding?.words(), search.gaps?.words()))
         still.repeats()?.let(::add)
         val off = outliers.rows.size

@@ -1,5 +1,6 @@
 package stillwater.diagnose.evidence
 
+import stillwater.diagnose.Verdict
 import stillwater.diagnose.median
 import stillwater.diagnose.three
 import kotlin.math.abs
@@ -22,10 +23,20 @@ internal class AveragedNoise private constructor(val rows: Int, val time: Double
             "has that an instrument averages over ${three(time)} s: its readings would be late by half of that, " +
             "${three(time / 2)} s, beside what the sensor itself is late, in every channel that it averages so"
 
-    /** The same as a sentence. */
-    fun sentence(): String = "${words().replaceFirstChar(Char::uppercase)}."
+    /** The same as a sentence; null where [verdict] says that the instrument averages. */
+    fun sentenceBeside(verdict: Verdict): String? =
+        if (verdict is Verdict.Unexplained &&
+            AVERAGES in verdict.what
+        ) {
+            null
+        } else {
+            "${words().replaceFirstChar(Char::uppercase)}."
+        }
 
     companion object {
+        /** What is said of such an instrument. */
+        const val AVERAGES = "averages"
+
         /** Rows; fewer may be repeated readings, or a noise model that is a little off. */
         private const val FEWEST = 5
         private const val MOST = 60

@@ -46,7 +46,7 @@ internal class CauseSearch(
             val to = model.slotOrNull(old) ?: continue
             for (k in 0 until minOf(model.width(old), before.model.width(old))) free[to + k] = before.free[from + k]
         }
-        for (i in term.cause.baseNumbers) free[i] = true
+        for (i in term.cause.baseNumbers) free[i] = i != ResponseModel.GAIN || !ConstantTruth.isOf(series)
         if (before.model.slotOrNull(term) == null) term.cause.conditionalNumber?.let { free[it] = true }
         model.slotOrNull(term)?.let { at -> for (k in 0 until model.width(term)) free[at + k] = true }
         return free

@@ -55,10 +55,12 @@ internal class ConstantTruth(
         /** The same beside what was named. */
         fun caution(base: ModelFit): String =
             "The reference never changes: what is added to the readings shows, and no gain, nor a lag" +
-                (settled(base) ?: ": the sensor is taken for one that follows at once") + "."
+                (settled(base) ?: if (follows(base)) ": the sensor is taken for one that follows at once" else "") + "."
+
+        private fun follows(base: ModelFit) = base.numbers[ResponseModel.TIME_CONSTANT] < base.model.series.period / 2
 
         private fun settled(base: ModelFit) = base.numbers[ResponseModel.TIME_CONSTANT]
-            .takeIf { it > base.model.series.period / 2 && base.free[ResponseModel.TIME_CONSTANT] }
+            .takeIf { !follows(base) && base.free[ResponseModel.TIME_CONSTANT] }
             ?.let { " but by how the first readings settled, as with one of ${three(it)} s" }
     }
 }

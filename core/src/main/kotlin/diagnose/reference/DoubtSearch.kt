@@ -38,7 +38,8 @@ internal class DoubtSearch(private val fit: ModelFit, private val unknown: Unkno
         if (isLate) offer(Doubt(between, !start.isBeyond))
         if (between != null) {
             for (factor in FACTORS) {
-                val middle = checkNotNull(best.between)
+                // What is no more likely with any is left as it was.
+                val middle = best.between ?: return best
                 offer(best.copy(between = minOf(middle * factor, MOST)))
                 offer(best.copy(between = maxOf(middle / factor, LEAST)))
             }

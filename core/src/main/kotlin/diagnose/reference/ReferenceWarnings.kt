@@ -60,7 +60,7 @@ internal class ReferenceWarnings(
                     "what comes and goes as slowly, as a pump that stops for a while, is not told from it.",
             )
         }
-        AveragedNoise.of(last.whitened, series.values, series.times)?.let { add(it.sentence()) }
+        AveragedNoise.of(last.whitened, series.values, series.times)?.sentenceBeside(verdict)?.let(::add)
         unknown?.words()?.let(::add)
         if (late > 0) add("Put right before the causes were weighed: ${ReferenceLead.words(late)}.")
         caution?.let(::add)

@@ -51,7 +51,7 @@ internal class SlowRivals(private val last: ModelFit, chosen: List<Trial>) {
         val theirs = Evidence.ratio(squares(all), squares(last.whitened), rows) - slow.sumOf { it.cost }
         fun worth(rival: Rival) =
             Evidence.ratio(squares(all), squares(all) - rival.gain, rows) - 2 * rival.numbers - CHOICE
-        val best = listOfNotNull(settled(), drifting(), turned()).maxBy(::worth)
+        val best = listOfNotNull(settled(), drifting().takeIf { !ConstantTruth.isOf(series) }, turned()).maxBy(::worth)
         return best.words.takeIf { worth(best) > maxOf(theirs, 0.0) + CLEARLY }
     }
 

@@ -1,5 +1,6 @@
 package stillwater.diagnose.evidence
 
+import stillwater.diagnose.Verdict
 import stillwater.diagnose.noise.CorrelatedNoise
 import java.util.Random
 import kotlin.math.exp
@@ -38,7 +39,9 @@ class AveragedNoiseTest {
             val found = assertNotNull(AveragedNoise.of(whitened(values, over / 2.0), values, times(0.5)), "$over rows")
             assertEquals(over, found.rows)
             assertEquals(over * 0.5, found.time, 1e-9)
-            assertContains(found.sentence(), "averages over ${"%.3g".format(over * 0.5)} s")
+            assertContains(found.words(), "averages over ${"%.3g".format(over * 0.5)} s")
+            assertNull(found.sentenceBeside(Verdict.Unexplained(found.words())), "it is not said twice")
+            assertNotNull(found.sentenceBeside(Verdict.Consistent))
         }
     }
 

@@ -3,8 +3,11 @@ package stillwater.diagnose.reference
 import stillwater.diagnose.Cause
 import stillwater.diagnose.Diagnosis
 import stillwater.diagnose.DiagnosisResult
+import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.Verdict
+import stillwater.sensor.SensorSpec
+import stillwater.sensor.SensorStage
 import java.util.Random
 import kotlin.math.exp
 import kotlin.math.sin
@@ -12,6 +15,8 @@ import kotlin.test.Test
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertIs
+import kotlin.test.assertNotNull
+import kotlin.test.assertTrue
 
 /** A probe that is left in one sample tells of what is added to its readings, and of nothing else. Seeds fixed before the first run. */
 class ConstantTruthTest {
@@ -20,13 +25,26 @@ class ConstantTruthTest {
     private fun diagnosed(
         seed: Long,
         conditions: Map<String, DoubleArray> = emptyMap(),
+        given: SensorSpec? = null,
         added: (Int) -> Double,
     ): DiagnosisResult {
         val random = Random(seed)
         val values = DoubleArray(n) { 8 + added(it) + 0.02 * random.nextGaussian() }
         val still = DoubleArray(n)
         val times = DoubleArray(n) { it.toDouble() }
-        return Diagnosis(MeasuredSeries(times, still, still, values, DoubleArray(n) { 8.0 }, conditions)).run()
+        return Diagnosis(
+            MeasuredSeries(
+                times,
+                still,
+                still,
+                values,
+                DoubleArray(n) {
+                    8.0
+                },
+                conditions,
+            ),
+            DiagnosisSettings(base = given),
+        ).run()
     }
 
     private fun named(result: DiagnosisResult) = assertIs<Verdict.Named>(result.verdict).causes
@@ -50,6 +68,16 @@ class ConstantTruthTest {
         val warmth = DoubleArray(n) { 15 + sin(it / 70.0) }
         val shown = diagnosed(3103, mapOf("temperature" to warmth)) { 0.05 * sin(it / 70.0) }
         assertEquals(listOf(Cause.CROSS_SENSITIVITY), named(shown))
+    }
+
+    @Test
+    fun ofAGivenSensorTheOffsetAloneIsTold() {
+        val result = diagnosed(3106, given = SensorSpec("given", listOf(SensorStage.Lag(3.0)))) { 1.0 }
+        assertEquals(listOf(Cause.GAIN_OFFSET), named(result))
+        val numbers = assertNotNull(result.extended).parameters.associateBy { it.name }
+        assertEquals(1.0, numbers.getValue("gain").value)
+        assertEquals(1.0, numbers.getValue("offset").value, 0.01)
+        assertTrue(result.warnings.none { "at once" in it }, "the sensor given does not follow at once")
     }
 
     @Test
