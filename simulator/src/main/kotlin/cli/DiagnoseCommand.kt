@@ -90,14 +90,11 @@ class DiagnoseCommand : WorkCommand("diagnose") {
             keepsUnread = reference != null,
         )
         val opened = SurveyLog.open(Path.of(log), choice)
-        compare.firstOrNull { it == opened.quantity }?.let {
-            throw BadFlag("--compare", "another column than the readings'", "'$it'")
-        }
-        conditions.firstOrNull { it.second == opened.quantity }?.let { (name, column) ->
-            throw BadFlag("--condition", "another column than the readings'", "'$name=$column'")
-        }
-        if (reference == opened.quantity) {
-            throw BadFlag("--reference", "another column than the readings'", "'$reference'")
+        val others = compare.map { Triple("--compare", it, it) } +
+            conditions.map { (name, column) -> Triple("--condition", column, "$name=$column") } +
+            listOfNotNull(reference).map { Triple("--reference", it, it) }
+        others.firstOrNull { it.second == opened.quantity }?.let { (flag, _, given) ->
+            throw BadFlag(flag, "another column than the readings'", "'$given'")
         }
         requireNoMission(Path.of(out))
         val earlier = EarlierResults(commandName, mark = "diagnosis.json" to "verdict")

@@ -1,5 +1,6 @@
 package stillwater.diagnosis
 
+import org.hipparchus.stat.correlation.PearsonsCorrelation
 import org.hipparchus.stat.descriptive.rank.Percentile
 import stillwater.diagnose.ModelAssessment
 import stillwater.plot.NullDistribution
@@ -7,7 +8,6 @@ import stillwater.survey.ValueResolution
 import stillwater.survey.Wording.Companion.digits
 import kotlin.math.ln
 import kotlin.math.round
-import kotlin.math.sqrt
 import kotlin.random.Random
 
 /**
@@ -36,9 +36,8 @@ internal class ResidualChecks(
     /** Of each lag from one row on, where the correlation of residuals that are right lies in 95 of 100 cases. */
     fun correlations(lags: Int): Pair<DoubleArray, DoubleArray> {
         val found = drawn(draws) { correlations(it, lags) }
-        fun at(
-            percent: Double,
-        ) = DoubleArray(lags) { lag -> percentile(found.map { it[lag] }.toDoubleArray(), percent) }
+        val ofLags = List(lags) { lag -> found.map { it[lag] }.toDoubleArray() }
+        fun at(percent: Double) = DoubleArray(lags) { percentile(ofLags[it], percent) }
         return at(LOWER) to at(UPPER)
     }
 
@@ -50,7 +49,7 @@ internal class ResidualChecks(
         }
         val chance = if (base === best) draws else draws(base)
         return check("correlation with rounding to ${digits(step)}, base", base.whitened, chance) {
-            correlation(it, rounding)
+            PearsonsCorrelation().correlation(it, rounding)
         }
     }
 
@@ -65,12 +64,8 @@ internal class ResidualChecks(
     }
 
     /** What [of] gives for each of [draws]. */
-    private fun <T : Any> drawn(draws: List<DoubleArray>, of: (DoubleArray) -> T): List<T> {
-        val found = arrayOfNulls<Any>(draws.size)
-        AT_ONCE.each(draws.size) { found[it] = of(draws[it]) }
-        @Suppress("UNCHECKED_CAST")
-        return found.map { it as T }
-    }
+    private fun <T : Any> drawn(draws: List<DoubleArray>, of: (DoubleArray) -> T): List<T> =
+        draws.parallelStream().map(of).toList()
 
     companion object {
         /** What is seen by chance is told by so many simulated logs. */
@@ -131,20 +126,6 @@ internal class ResidualChecks(
             val tenth = z.size / TENTHS
             val variances = (0 until TENTHS).map { k -> (k * tenth until (k + 1) * tenth).sumOf { z[it] * z[it] } }
             return ln(maxOf(variances.max(), SMALLEST) / maxOf(variances.min(), SMALLEST))
-        }
-
-        private fun correlation(x: DoubleArray, y: DoubleArray): Double {
-            val ofX = x.average()
-            val ofY = y.average()
-            var both = 0.0
-            var xs = 0.0
-            var ys = 0.0
-            for (i in x.indices) {
-                both += (x[i] - ofX) * (y[i] - ofY)
-                xs += (x[i] - ofX) * (x[i] - ofX)
-                ys += (y[i] - ofY) * (y[i] - ofY)
-            }
-            return both / sqrt(xs * ys)
         }
 
         private const val NORMAL_KURTOSIS = 3.0

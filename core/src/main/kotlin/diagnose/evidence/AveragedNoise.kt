@@ -20,18 +20,14 @@ internal class AveragedNoise private constructor(val rows: Int, val time: Double
     /** As a part of a sentence. */
     fun words(): String =
         "what is left has a correlation of ${three(correlation)} with itself $rows rows before, as noise " +
-            "has that an instrument averages over ${three(time)} s: its readings would be late by half of that, " +
+            "has that an instrument $AVERAGES over ${three(time)} s: its readings would be late by half of that, " +
             "${three(time / 2)} s, beside what the sensor itself is late, in every channel that it averages so"
 
     /** The same as a sentence; null where [verdict] says that the instrument averages. */
-    fun sentenceBeside(verdict: Verdict): String? =
-        if (verdict is Verdict.Unexplained &&
-            AVERAGES in verdict.what
-        ) {
-            null
-        } else {
-            "${words().replaceFirstChar(Char::uppercase)}."
-        }
+    fun sentenceBeside(verdict: Verdict): String? {
+        val isSaid = verdict is Verdict.Unexplained && AVERAGES in verdict.what
+        return if (isSaid) null else "${words().replaceFirstChar(Char::uppercase)}."
+    }
 
     companion object {
         /** What is said of such an instrument. */

@@ -91,6 +91,7 @@ internal class BaseModels(
 
     private fun of(steps: Steps, scales: Scales): ModelFit {
         val given = settings.base?.let { GivenSensor(it, scales) }
+        val isConstant = given == null && ConstantTruth.isOf(series)
         // A sensor file does not say how noisily another quantity is measured that the sensor shows.
         val known = given?.terms.orEmpty().let { listOf(it, it.map(Term::quiet)) }
         val forms = (known + known.map { it.map(Term::begun) }).distinct()
@@ -98,13 +99,7 @@ internal class BaseModels(
             val free = BooleanArray(model.parameters.size) { it < ResponseModel.BASE || it in model.firstStates }
             val starts = given?.let { listOf(it.numbers(model)) } ?: Starts.ofLags(model)
             val fits = starts.map { Fitting.fit(model, it, free, used, longest) }
-            if (given == null &&
-                ConstantTruth.isOf(series)
-            ) {
-                listOf(ConstantTruth(series, used, longest).base(fits))
-            } else {
-                fits
-            }
+            if (isConstant) listOf(ConstantTruth(series, used, longest).base(fits)) else fits
         }.maxBy { it.score - CauseSearch.OWN_START * it.model.firstStates.size }
     }
 

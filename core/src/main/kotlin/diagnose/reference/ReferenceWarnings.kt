@@ -33,7 +33,8 @@ internal class ReferenceWarnings(
 
     /**
      * In words, beside [verdict]: [most] is the strongest of what is left, [uneven] what the noise goes with, [caution] what
-     * may be wrong with the reference, null for nothing; so many readings are far [off], and some may stand [still].
+     * may be wrong with the reference, null for nothing; so many readings are far [off], and some may stand [still];
+     * noise may be [averaged].
      */
     fun of(
         most: Dependence,
@@ -42,6 +43,7 @@ internal class ReferenceWarnings(
         caution: String?,
         off: Int,
         still: StillReadings,
+        averaged: AveragedNoise?,
     ): List<String> = buildList {
         val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         val isAnswered = verdict !is Verdict.Consistent && verdict !is Verdict.InsufficientData
@@ -60,7 +62,7 @@ internal class ReferenceWarnings(
                     "what comes and goes as slowly, as a pump that stops for a while, is not told from it.",
             )
         }
-        AveragedNoise.of(last.whitened, series.values, series.times)?.sentenceBeside(verdict)?.let(::add)
+        averaged?.sentenceBeside(verdict)?.let(::add)
         unknown?.words()?.let(::add)
         if (late > 0) add("Put right before the causes were weighed: ${ReferenceLead.words(late)}.")
         caution?.let(::add)

@@ -9,9 +9,8 @@ import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ReferenceLead
 import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Steps
+import stillwater.diagnose.response.refined
 import stillwater.diagnose.three
-import kotlin.math.exp
-import kotlin.math.ln
 
 /**
  * Readings that an instrument gives as means over the last seconds: no cause of the list, and much like a dead time of half of
@@ -21,12 +20,14 @@ import kotlin.math.ln
  * reference for each V tells. The truth goes on evenly between rows or is held over each step ([Steps]), which of a few rows'
  * mean is most of what there is to see.
  *
- * @param base the model without causes. @param chosen causes, one after the other.
+ * @param base the model without causes. @param chosen causes, one after the other. @param averaged what the residuals of the last
+ *   say of noise that is averaged; null for nothing.
  */
 internal class RunningMean(
     private val base: ModelFit,
     private val chosen: List<Trial>,
     private val longest: Double,
+    private val averaged: AveragedNoise?,
     private val loops: Loops,
 ) {
     private val last = chosen.lastOrNull()?.fit ?: base
@@ -42,8 +43,6 @@ internal class RunningMean(
         for (i in 1 until sum.size) sum[i] = sum[i - 1] + over(i) * (times[i] - times[i - 1])
     }
 
-    private class Found(val window: Double, val explained: Double, val timeConstant: Double)
-
     /**
      * That readings are running means, in words, where that explains the log better than the delays and further lags among
      * what was chosen, or, where there are none, than nothing, or where delays were chosen and the noise is averaged; else null.
@@ -55,38 +54,26 @@ internal class RunningMean(
         return mean(gone) ?: if (gone.isEmpty()) null else averaged?.words()
     }
 
-    private val averaged get() = AveragedNoise.of(last.whitened, series.values, series.times)
-
     private fun mean(gone: List<Trial>): String? {
-        val explained = last.score - chosen.sumOf { it.cost }
-        val best = best(gone) ?: return null
-        if (best.explained < explained + CLEARLY) return null
-        val lag =
-            if (best.timeConstant < series.period / 2) "" else " of what a lag of ${three(best.timeConstant)} s shows"
-        val window = three(best.window)
-        return "the readings look like running means over $window s$lag, as an instrument that averages gives them: " +
-            "half of that, ${three(best.window / 2)} s, they are late"
+        val (window, fit) = best(gone) ?: return null
+        val cost = chosen.sumOf { it.cost } - gone.sumOf { it.cost } + WINDOW
+        if (fit.score - cost < last.score - chosen.sumOf { it.cost } + CLEARLY) return null
+        val tau = fit.numbers[ResponseModel.TIME_CONSTANT]
+        val lag = if (tau < series.period / 2) "" else " of what a lag of ${three(tau)} s shows"
+        return "the readings look like running means over ${three(window)} s$lag, as an instrument that " +
+            "${AveragedNoise.AVERAGES} gives them: half of that, ${three(window / 2)} s, they are late"
     }
 
-    /** The likeliest window; null where that is the shortest or the longest that is looked for. */
-    private fun best(gone: List<Trial>): Found? {
-        val kept = chosen.sumOf { it.cost } - gone.sumOf { it.cost }
-        fun at(window: Double, steps: Steps) = fit(window, steps, gone).let {
-            Found(window, it.score - kept - WINDOW, it.numbers[ResponseModel.TIME_CONSTANT])
-        }
+    /** The likeliest window and the model with it; null where that is the shortest or the longest that is looked for. */
+    private fun best(gone: List<Trial>): Pair<Double, ModelFit>? {
         val windows = generateSequence(SHORTEST * series.period) { it * FACTOR }
             .takeWhile { it < minOf(series.duration / PARTS, longest) }.toList()
         if (windows.isEmpty()) return null
         return loops.all(WAYS) { way ->
-            var best = loops.all(windows) { at(it, way) }.maxBy { it.explained }
-            var step = ln(FACTOR)
-            repeat(REFINEMENTS) {
-                step /= 2
-                val beside = loops.all(listOf(exp(-step), exp(step))) { at(best.window * it, way) }
-                best = (beside + best).maxBy { it.explained }
-            }
-            best
-        }.maxBy { it.explained }.takeIf { it.window in SHORTEST * series.period..windows.last() }
+            fun at(window: Double) = fit(window, way, gone)
+            val best = loops.all(windows) { it to at(it) }.maxBy { it.second.score }
+            refined(best, FACTOR, { it.score }, ::at)
+        }.maxBy { it.second.score }.takeIf { it.first in windows.first()..windows.last() }
     }
 
     private fun fit(window: Double, steps: Steps, gone: List<Trial>): ModelFit {
@@ -120,7 +107,6 @@ internal class RunningMean(
 
         /** Of the log: a window that is longer is seen to end in few of its parts. */
         const val PARTS = 10
-        const val REFINEMENTS = 4
 
         /** Twice the log-likelihood that the best of so many windows gains by chance. */
         const val WINDOW = 6.0

@@ -51,7 +51,7 @@ internal class SlowRivals(private val last: ModelFit, chosen: List<Trial>) {
         val theirs = Evidence.ratio(squares(all), squares(last.whitened), rows) - slow.sumOf { it.cost }
         fun worth(rival: Rival) =
             Evidence.ratio(squares(all), squares(all) - rival.gain, rows) - 2 * rival.numbers - CHOICE
-        val best = listOfNotNull(settled(), drifting().takeIf { !ConstantTruth.isOf(series) }, turned()).maxBy(::worth)
+        val best = listOfNotNull(settled(), drifting(), turned()).maxBy(::worth)
         return best.words.takeIf { worth(best) > maxOf(theirs, 0.0) + CLEARLY }
     }
 
@@ -60,8 +60,9 @@ internal class SlowRivals(private val last: ModelFit, chosen: List<Trial>) {
         Rival(gain, 1, Settling.words(size, time))
     }.maxBy { it.gain }
 
-    /** A gain that goes up or down evenly. */
-    private fun drifting(): Rival {
+    /** A gain that goes up or down evenly; null where the truth never changes, for there is none. */
+    private fun drifting(): Rival? {
+        if (ConstantTruth.isOf(series)) return null
         val shown = last.predicted
         val offset = last.numbers[ResponseModel.OFFSET]
         val column = DoubleArray(series.size) { (shown[it] - offset) * (series.times[it] - series.times[0]) }

@@ -9,6 +9,7 @@ import stillwater.diagnose.Estimate
 import stillwater.diagnose.Loops
 import stillwater.diagnose.NamedEffect
 import stillwater.diagnose.Verdict
+import stillwater.diagnose.evidence.AveragedNoise
 import stillwater.diagnose.evidence.Evidence
 import stillwater.diagnose.evidence.FitReport
 import stillwater.diagnose.evidence.HeldOut
@@ -99,6 +100,8 @@ internal class Weighing(
     private val uneven by lazy { UnevenNoise(last).words(settings.level / tried) }
     private val left by lazy { Structure.dependences(last, search.longest) }
 
+    private val averaged by lazy { AveragedNoise.of(last.whitened, series.values, series.times) }
+
     /** Whether something is left for certain beside what was chosen. */
     val isStructured: Boolean get() = left.first().adjusted < settings.structureLevel
     private val faults by lazy { ReferenceFaults(search, base, baseHeldOut, used, tried, settings.level) }
@@ -153,7 +156,7 @@ internal class Weighing(
             },
             left,
             (spikes + series.wild.keys).sorted(),
-            warnings.of(left.first(), verdict, uneven, faults.caution(explained), spikes.size, still) +
+            warnings.of(left.first(), verdict, uneven, faults.caution(explained), spikes.size, still, averaged) +
                 shifts.words(small.map { it.first }) +
                 listOfNotNull(EQUAL.takeIf { equal.isNotEmpty() }) +
                 shifts.cautions(clear).takeIf { named }.orEmpty() + report.warnings +
@@ -298,7 +301,7 @@ internal class Weighing(
         faults.words(explained, isTwoPath)?.let { return Verdict.Unexplained(it) }
         SlowRivals(last, chosen).words()?.let { return Verdict.Unexplained(it) }
         if (chosen.isNotEmpty() || isStructured) {
-            RunningMean(base, chosen, search.longest, loops).words()?.let { return Verdict.Unexplained(it) }
+            RunningMean(base, chosen, search.longest, averaged, loops).words()?.let { return Verdict.Unexplained(it) }
         }
         val lasting = loose.lasting.size
         return when {

@@ -4,8 +4,6 @@ import stillwater.diagnose.Cause
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.algebra.Spline
 import java.util.Locale
-import kotlin.math.exp
-import kotlin.math.ln
 
 /**
  * The truth that a reference is late for by a few rows at most: fast sensors have a lag, too, and clocks differ. To the
@@ -39,15 +37,8 @@ internal object ReferenceLead {
 
     /** The lag in rows for which [explained] is most, and that; null where it is the longest that is tried. */
     fun likeliest(explained: (Double) -> Double): Pair<Double, Double>? {
-        var best = LAGS.map { it to explained(it) }.maxBy { it.second }
-        if (best.first == LAGS.last()) return null
-        var step = ln(2.0)
-        repeat(REFINEMENTS) {
-            step /= 2
-            val beside = listOf(best.first * exp(step), best.first * exp(-step)).map { it to explained(it) }
-            best = (beside + best).maxBy { it.second }
-        }
-        return best
+        val best = LAGS.map { it to explained(it) }.maxBy { it.second }
+        return if (best.first == LAGS.last()) null else refined(best, factor = 2.0, worth = { it }, at = explained)
     }
 
     /** What is to be said of a reference that is late by [late] s. */
@@ -68,7 +59,6 @@ internal object ReferenceLead {
 
     /** Rows; those that are tried first. */
     private val LAGS = List(9) { (1 shl it) / 32.0 }
-    private const val REFINEMENTS = 4
 
     /** Of a row: how near the two places are between which the reference's slope is taken. */
     private const val NEAR = 100
