@@ -61,14 +61,25 @@ internal class ReferenceDiagnosis(
         TooLittle.inGaps(series, unknown.isGap)?.let { why ->
             return UnwrittenMoves(series, unknown.isGap, settings.base).answer(why)
         }
-        val quieter = quieter(checkNotNull(series.reference))
+        val reference = QuieterReference(series, unknown, models, used, longest, loops)
+        val quieter = reference.likeliest()
         val first = if (quieter == null) {
             weighed()
         } else {
-            likelier(ReferenceDiagnosis(quieter, settings, loops, 0.0, progress = parts.next(HALF)))
+            retold(reference, likelier(ReferenceDiagnosis(quieter, settings, loops, 0.0, progress = parts.next(HALF))))
         }
         return finer(unrounded(first)).result()
     }
+
+    /**
+     * The weighing with heights of samples in [reference] that go with what was named in [first], or with the beginning of that,
+     * where one explains more; else that one. What came after may make up for heights that go with nothing.
+     */
+    private fun retold(reference: QuieterReference, first: Weighing): Weighing =
+        first.chosen.mapNotNull { reference.with(it.fit) }.fold(first) { best, log ->
+            val second = ReferenceDiagnosis(log, settings, loops, 0.0) { }.weighed()
+            if (second.explained > best.explained + HELD) second else best
+        }
 
     /**
      * The weighing with a smooth course within the reference's steps, where these are coarse beside what [first] leaves and that
@@ -133,34 +144,6 @@ internal class ReferenceDiagnosis(
         val noisier = weighed()
         val isLikelier = noisier.explained > quieter.explained + HELD && noisier.chosen.size <= quieter.chosen.size
         return if (isLikelier) noisier else quieter
-    }
-
-    /**
-     * This log with a reference of less noise, where its own noise shows in the readings; null where it does not. A
-     * model that takes noise for truth is wrong in its response, whatever the sensor's.
-     */
-    private fun quieter(reference: DoubleArray): MeasuredSeries? {
-        // Water that changes faster than a sparse reference shows looks like noise.
-        if (series.size < FEWEST || series.isSparse) return null
-        val noise = ReferenceNoise(series.times, reference, unknown.isBroken)
-        val shown = noise.spread * abs(models.rough.numbers[ResponseModel.GAIN])
-        if (!(shown > NOISY * Spikes.spread(series.shown(models.rough.whitened)))) return null
-        // How much of its noise is taken off is asked of the readings: what is left would make a response that smooths
-        // it (the truth held, and a lag more that undoes the lead) look likelier than the right one. Nothing is to go
-        // that is more than the noise.
-        val courses = SmoothCourse(reference, unknown.isBroken)
-        val most = noise.spread * (1 + CLEARLY / sqrt(2.0 * series.size))
-        val smooth = SmoothCourse.STIFFNESSES.map(courses::of).filter { course ->
-            squares(DoubleArray(series.size) { reference[it] - course[it] }) <= most * most * series.size
-        }
-        return (smooth + noise.smoothed()).map(series::withQuieter).maxBy(::explained)
-    }
-
-    /** Twice the log-likelihood of the base for [quiet], this log with another reference. */
-    private fun explained(quiet: MeasuredSeries): Double {
-        val rough = models.rough
-        val model = ResponseModel(quiet, rough.model.terms, Steps.EVEN, Scales(quiet, unknown))
-        return Fitting.fit(model, rough.numbers, rough.free, used, longest, guess = rough.noise).score
     }
 
     private fun weighed(): Weighing {
@@ -374,15 +357,10 @@ internal class ReferenceDiagnosis(
         /** Twice the log of the odds, ten to one, of a reference that is late as an ordinary one may be and a probe ahead. */
         const val LIKELIER = 4.6
 
-        const val FEWEST = 30
-
         /** Standard errors of the whole log by which what is not known between rows may carry a fit before it is looked for. */
         const val FELT = 1.0
 
-        /** Noise of the reference, in that of the readings, above which it is taken off. */
+        /** What steps of the reference make of noise, in that of the readings, above which they are made smooth. */
         const val NOISY = 0.2
-
-        /** Standard errors of the reference's noise by which what is taken off may be larger. */
-        const val CLEARLY = 3.0
     }
 }
