@@ -165,18 +165,24 @@ internal data class CsvColumns(
             if (choice.needsPlace && place.columns.all { it == NONE } && other != null) {
                 throw problem(other, "metres, or --x and --y", all)
             }
-            if (place.suffices(choice)) return place
+            if (place.suffices(choice) || isLine(place)) return place
             val expected = "columns lat_deg and lon_deg, or x_m and y_m, or --lat and --lon, or --x" + placeHint()
             throw problem(null, expected, all)
         }
+
+        /** Whether [place] is a distance along a line alone, where none is needed at all. */
+        private fun isLine(place: Place) =
+            !choice.needsPlace && place.latitude == NONE && place.y == NONE && names.getOrNull(place.x) == X
 
         /** What may be meant by columns that are not taken for places without being asked. */
         private fun placeHint(): String {
             val x = names.firstOrNull { ColumnNames.plain(it) == "x" }
             val y = names.firstOrNull { ColumnNames.plain(it) == "y" }
             val depth = names.firstOrNull { ColumnNames.isDepth(it) }
+            val alone = names.firstOrNull { it == X }
             return when {
                 x != null && y != null -> " (--x '$x' --y '$y' if these are metres)"
+                alone != null -> " (--x '$alone' for a transect)"
                 depth != null -> " (--x '$depth' for a profile)"
                 else -> " (without places: diagnose or correct with --reference, or correct with --sensor)"
             }

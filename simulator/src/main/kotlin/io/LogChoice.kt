@@ -15,7 +15,7 @@ package stillwater.io
  * @property latitude column with the latitude, degrees north.
  * @property longitude column with the longitude, degrees east.
  * @property x column with the distance east or along a transect, m.
- * @property y column with the distance north, m; may be left out where [x] is given.
+ * @property y column with the distance north, m; may be left out where [x] is given, and where no place is needed.
  * @property value column with the readings, or sensor TYPE[#CHANNEL][.FIELD] of a Platypus log.
  * @property conditions column of each further quantity, by the name it is to have.
  * @property skipBadRows whether rows that cannot be used are counted and left out rather than an error.

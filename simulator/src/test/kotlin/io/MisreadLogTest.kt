@@ -184,6 +184,12 @@ class MisreadLogTest {
                 LogChoice(value = "v"),
             ),
             Case(
+                "metres along a line alone",
+                "time_s,x_m,v\n0,0,8.1\n1,1,8.2\n",
+                "or --x (--x 'x_m' for a transect)",
+                LogChoice(value = "v"),
+            ),
+            Case(
                 "minutes in which the boat would fly",
                 "Time,x_m,y_m,v\n0,0,0,8.1\n1,30,0,8.2\n2,60,0,8.3\n",
                 "column Time: expected numbers whose unit the name states, as Time (s) does, or --time-unit, found " +

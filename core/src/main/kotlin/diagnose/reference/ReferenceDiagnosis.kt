@@ -17,6 +17,7 @@ import stillwater.diagnose.noise.CorrelatedNoise
 import stillwater.diagnose.response.FinerTruth
 import stillwater.diagnose.response.Fitting
 import stillwater.diagnose.response.ModelFit
+import stillwater.diagnose.response.RangeEnd
 import stillwater.diagnose.response.ReferenceGaps
 import stillwater.diagnose.response.ReferenceLead
 import stillwater.diagnose.response.ReferenceNoise
@@ -293,6 +294,21 @@ internal class ReferenceDiagnosis(
         series.readRows().copyInto(used)
         val settled = models.settled(steps)
         val spikes = known ?: wild(settled)
+        val first = without(spikes, settled, steps)
+        // What an end of the range cuts off alone is not wild.
+        val end = first.forward.first.firstOrNull { it.term.cause == Cause.SATURATION && known == null }
+        val atEnd = end?.let { RangeEnd.explained(it.fit, spikes) }.orEmpty()
+        if (atEnd.isEmpty()) return first
+        val rows = used.copyOf()
+        val second = without(spikes - atEnd.toSet(), settled, steps)
+        if (second.chosen.any { it.term.cause == Cause.SATURATION }) return second
+        rows.copyInto(used)
+        return first
+    }
+
+    /** The weighing without [spikes], where [settled] is the base with all readings. */
+    private fun without(spikes: List<Int>, settled: ModelFit, steps: Steps?): Weighing {
+        series.readRows().copyInto(used)
         spikes.forEach { used[it] = false }
         return weighing(if (spikes.isEmpty()) settled else models.of(steps, settled), spikes, 0.0)
     }

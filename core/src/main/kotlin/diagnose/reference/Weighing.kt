@@ -63,7 +63,8 @@ internal class Weighing(
     private val baseHeldOut = HeldOut.score(base, used)
     private val truth = requireNotNull(series.reference) { "weighing needs a reference" }
     private val terms = terms().filter { it.cause.isAdded || !ConstantTruth.isOf(series) }
-    private val forward = ForwardSearch(search, base, baseHeldOut, terms, settings, loops) { told(terms.size) }
+    /** What was tried, each cause alone first. */
+    val forward = ForwardSearch(search, base, baseHeldOut, terms, settings, loops) { told(terms.size) }
 
     private val water = ChangingWater(series, truth)
 

@@ -52,6 +52,15 @@ internal object RangeEnd {
         return products > PART * squares && products > DEVIATIONS * sqrt(scatter)
     }
 
+    /** Those of [rows], which are not in use in [fit], that its range's ends bring back to what noise does: they are not wild. */
+    fun explained(fit: ModelFit, rows: List<Int>): List<Int> {
+        val term = fit.model.terms.firstOrNull { it.cause == Cause.SATURATION } ?: return emptyList()
+        val open = open(fit.model, term, fit.numbers)
+        val most = DEVIATIONS * sqrt(fit.variance)
+        val values = fit.model.series.values
+        return rows.filter { abs(values[it] - fit.predicted[it]) < most && abs(values[it] - open[it]) > most }
+    }
+
     /** How many ends the range of [fit] has. */
     fun count(fit: ModelFit): Int {
         val term = fit.model.terms.firstOrNull { it.cause == Cause.SATURATION } ?: return 0

@@ -5,6 +5,7 @@ import stillwater.diagnose.Cause
 import stillwater.diagnose.Diagnosis
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.Verdict
+import kotlin.math.exp
 import kotlin.math.sin
 import kotlin.test.Test
 import kotlin.test.assertEquals
@@ -38,6 +39,39 @@ class RangeEndTest {
             assertEquals(END, numbers.getValue("upper"), 3 * NOISE, "seed $seed: $numbers")
             assertTrue("lower" !in numbers, "seed $seed: $numbers")
         }
+    }
+
+    /** Slow water with four bursts that are over within rows, as a lag of 2 s shows it; what [read] makes of each row. */
+    private fun bursts(random: java.util.Random, read: (Int, Double) -> Double): MeasuredSeries {
+        val short = times.copyOf(600)
+        fun burst(time: Double) = listOf(110.0, 260.0, 380.0, 520.0).sumOf { exp(-(time - it) * (time - it) / 2) }
+        val truth = DoubleArray(short.size) { 10 + sin(short[it] / 15) + 3 * burst(short[it]) }
+        var state = truth[0]
+        val values = DoubleArray(short.size) {
+            state += -Math.expm1(-0.5) * (truth[it] - state)
+            read(it, state) + 0.02 * random.nextGaussian()
+        }
+        return MeasuredSeries(short, short, DoubleArray(short.size), values, truth)
+    }
+
+    @Test
+    fun aReadingThatAnEndOfTheRangeCutsOffAloneIsNotWild() {
+        val shown = bursts(java.util.Random(SEED + 10)) { _, it -> it }.values.sortedDescending()
+        // In each of the two highest bursts no more than a row or two is beyond it.
+        val end = shown[3] - 0.05
+        val result = Diagnosis(bursts(java.util.Random(SEED + 11)) { _, it -> minOf(it, end) }).run()
+        assertEquals(Verdict.Named(listOf(Cause.SATURATION)), result.verdict)
+        val upper = checkNotNull(result.extended).parameters.single { it.name == "upper" }
+        assertEquals(end, upper.value, 0.06)
+        assertEquals(emptyList(), result.spikes)
+    }
+
+    @Test
+    fun wildReadingsBelowTheWaterAreNoEndOfTheRange() {
+        val wild = setOf(70, 133, 222, 345, 480)
+        val log = bursts(java.util.Random(SEED + 12)) { i, it -> if (i in wild) it - 0.4 else it }
+        val verdict = Diagnosis(log).run().verdict
+        assertTrue(verdict !is Verdict.Named || Cause.SATURATION !in verdict.causes, "$verdict")
     }
 
     private companion object {
