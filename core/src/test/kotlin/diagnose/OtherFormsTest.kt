@@ -55,6 +55,26 @@ class OtherFormsTest {
         }
     }
 
+    /** Seeds fixed before the first run. */
+    @Test
+    fun aDeadBandOfTheWaterIsToldFromOneOfWhatTheLagShows() {
+        val band = SensorStage.Backlash(0.3)
+        val lag = SensorStage.Lag(9.0)
+        for ((seed, stages) in mapOf(20261221L to listOf(band, lag), 20261222L to listOf(lag, band))) {
+            val added = noise(java.util.Random(seed), 0.02)
+            val clean = shown(*stages.toTypedArray())
+            val values = DoubleArray(n) { clean[it] + added[it] }
+            val result = diagnosed(values)
+            assertEquals(Verdict.Named(listOf(Cause.HYSTERESIS)), result.verdict, "seed $seed")
+            val numbers = checkNotNull(result.extended).parameters.associate { it.name to it.value }
+            assertEquals(0.3, numbers.getValue("width"), 0.03, "seed $seed: $numbers")
+            assertEquals(9.0, numbers.getValue("time_constant_s"), 0.3, "seed $seed: $numbers")
+            val found = checkNotNull(result.extendedSensor).stages.filter { it is SensorStage.Backlash || it is SensorStage.Lag }
+            assertEquals(stages.map { it::class }, found.map { it::class }, "seed $seed")
+            assertEquals(Verdict.Consistent, diagnosed(values, given = stages).verdict, "seed $seed, given")
+        }
+    }
+
     @Test
     fun aCrossSensitivityToAQuantityWithNoiseOfItsOwnIsNamedAloneWithItsNumber() {
         for (seed in 1L..2L) {

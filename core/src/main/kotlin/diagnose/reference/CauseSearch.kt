@@ -139,6 +139,8 @@ internal class CauseSearch(
             listOf(term.copy(isWithin = false), term.copy(isWithin = true))
         term.cause == Cause.SLEW_LIMIT ->
             listOf(term.copy(isWithin = base.model.terms.any { it.key == term.key && it.isWithin }))
+        term.cause == Cause.HYSTERESIS ->
+            listOf(false, true).map { term.copy(hasOwnStart = false, isFirst = it) }
         else -> listOf(term.copy(hasOwnStart = false))
     }
 

@@ -44,24 +44,25 @@ internal class RunningMean(
     }
 
     /**
-     * That readings are running means, in words, where that explains the log better than the delays and further lags among
-     * what was chosen, or, where there are none, than nothing, or where delays were chosen and the noise is averaged; else null.
+     * That readings are running means, where that explains the log better than the delays and further lags among what was
+     * chosen, or, where there are none, than nothing, or where delays were chosen and the noise is averaged; else null.
      */
-    fun words(): String? {
+    fun rival(): Rival? {
         // How the truth went between rows far apart is not known.
         if (series.isSparse) return null
         val gone = chosen.filter { it.term.cause in ReferenceLead.ALIKE }
-        return mean(gone) ?: if (gone.isEmpty()) null else averaged?.words()
+        return mean(gone) ?: if (gone.isEmpty()) null else averaged?.let { Rival(it.words(), last.score) }
     }
 
-    private fun mean(gone: List<Trial>): String? {
+    private fun mean(gone: List<Trial>): Rival? {
         val (window, fit) = best(gone) ?: return null
         val cost = chosen.sumOf { it.cost } - gone.sumOf { it.cost } + WINDOW
         if (fit.score - cost < last.score - chosen.sumOf { it.cost } + CLEARLY) return null
         val tau = fit.numbers[ResponseModel.TIME_CONSTANT]
         val lag = if (tau < series.period / 2) "" else " of what a lag of ${three(tau)} s shows"
-        return "the readings look like running means over ${three(window)} s$lag, as an instrument that " +
+        val words = "the readings look like running means over ${three(window)} s$lag, as an instrument that " +
             "${AveragedNoise.AVERAGES} gives them: half of that, ${three(window / 2)} s, they are late"
+        return Rival(words, fit.score - cost)
     }
 
     /** The likeliest window and the model with it; null where that is the shortest or the longest that is looked for. */

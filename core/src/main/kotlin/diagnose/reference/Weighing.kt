@@ -186,14 +186,14 @@ internal class Weighing(
     }
 
     /**
-     * Whether [term] is two paths that may as well be one: how much slower the second is has an interval that holds 1, or it
-     * is hardly slower and may be all there is.
+     * Whether [term] is two paths that may as well be one: how much slower the second is has an interval that holds 1, or its
+     * share may be all there is.
      */
     private fun mayBeEqual(term: Term): Boolean {
         if (term.cause != Cause.TWO_PATH_RESPONSE) return false
         val own = report.estimates(last, listOf(term)).associate { it.name to it.interval }
         val ratio = own["slow_ratio"] ?: return false
-        return ratio.lower <= 1 || (ratio.upper < HARDLY_SLOWER && (own["slow_share"]?.upper ?: 0.0) >= 1)
+        return ratio.lower <= 1 || (own["slow_share"]?.upper ?: 0.0) >= 1
     }
 
     /** Whether rounding makes a quarter of the noise: it need not show in what the model foretells of single readings. */
@@ -301,9 +301,10 @@ internal class Weighing(
         val isTwoPath = chosen.any { it.term.cause == Cause.TWO_PATH_RESPONSE }
         faults.words(explained, isTwoPath)?.let { return Verdict.Unexplained(it) }
         SlowRivals(last, chosen).words()?.let { return Verdict.Unexplained(it) }
-        if (chosen.isNotEmpty() || isStructured) {
-            RunningMean(base, chosen, search.longest, averaged, loops).words()?.let { return Verdict.Unexplained(it) }
-        }
+        val isOpen = chosen.isNotEmpty() || isStructured
+        val mean = if (isOpen) RunningMean(base, chosen, search.longest, averaged, loops).rival() else null
+        val clock = ClockDrift(base, chosen, search.longest, loops).rival()
+        listOfNotNull(mean, clock).maxByOrNull { it.worth }?.let { return Verdict.Unexplained(it.words) }
         val lasting = loose.lasting.size
         return when {
             lasting >= FEWEST_CHANGES && loose.lastingPValue * tried < settings.level && chosen.isEmpty() ->
@@ -369,12 +370,9 @@ internal class Weighing(
     private companion object {
         const val FEWEST_ROWS = 60
 
-        /** Times the first path's time constant. */
-        const val HARDLY_SLOWER = 1.5
-
         /** Of two paths that may be one. */
         const val EQUAL =
-            "A second path was fitted beside and is not named: it may be as fast as the first, and then there is one."
+            "A second path was fitted beside and is not named: it may be as fast as the first, or all there is, and then there is one."
 
         /** Of what was too small to be named. */
         const val BESIDE =

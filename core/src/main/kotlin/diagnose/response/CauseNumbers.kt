@@ -43,3 +43,16 @@ internal val Cause.isAdded: Boolean
         Cause.GAIN_OFFSET, Cause.CROSS_SENSITIVITY, Cause.DRIFT, Cause.OFFSET_STEPS, Cause.QUANTISATION -> true
         else -> false
     }
+
+/** Whether with this a response is not the same lag all the time, or not one. Two in a row have a first state of their own. */
+internal val Cause.isShapingFirst: Boolean
+    get() = when (this) {
+        Cause.TWO_PATH_RESPONSE,
+        Cause.ASYMMETRIC_RESPONSE,
+        Cause.FLOW_DEPENDENT_RESPONSE,
+        Cause.TEMPERATURE_DEPENDENT_RESPONSE,
+        Cause.SLEW_LIMIT,
+        Cause.HYSTERESIS,
+        -> true
+        else -> false
+    }

@@ -49,6 +49,9 @@ internal class ExtendedSensor(
             if (delay > 0) add(SensorStage.Delay(delay))
         }
         value(Cause.DEAD_TIME)?.let { add(SensorStage.Delay(it)) }
+        val band = value(Cause.HYSTERESIS)?.let { SensorStage.Backlash(it / abs(gain)) }
+        val isFirst = model.terms.any { it.isFirst }
+        if (band != null && isFirst) add(band)
         val lag = lag()
         add(lag)
         value(Cause.SECOND_ORDER_RESPONSE)?.let { add(SensorStage.Lag(it)) }
@@ -56,7 +59,7 @@ internal class ExtendedSensor(
             add(SensorStage.Slew(it))
             if (model.terms.any { term -> term.isWithin }) losses += BEHIND
         }
-        value(Cause.HYSTERESIS)?.let { add(SensorStage.Backlash(it / abs(gain))) }
+        if (band != null && !isFirst) add(band)
     }
 
     /** The largest rate of what the sensor shows before its gain, sensor units/s; null where there is no such limit. */

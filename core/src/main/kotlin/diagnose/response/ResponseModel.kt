@@ -51,13 +51,14 @@ internal class ResponseModel(
 
     /** Whether it is the lag's own rate that is limited; two paths have a limit behind them. */
     private val isWithin = limit?.isWithin == true && Cause.TWO_PATH_RESPONSE !in causes
+    private val band = terms.firstOrNull { it.cause == Cause.HYSTERESIS }
     private val lags = LagSteps(series, scales.unknown?.isGap, steps)
 
     /**
      * Whether the first state goes through the response, instead of fading by itself: a probe that comes from far off settles
      * as it responds. Where the water is inferred it fades, because there it counts as one of the water's heights.
      */
-    private val isFirstShaped = scales.unknown != null && causes.any { it in SHAPING_FIRST }
+    private val isFirstShaped = scales.unknown != null && causes.any { it.isShapingFirst }
 
     /** Which numbers change what comes before gain and offset. */
     private val isShaping = BooleanArray(parameters.size).also { shaping ->
@@ -158,6 +159,7 @@ internal class ResponseModel(
 
     private fun shape(p: DoubleArray, out: DoubleArray) {
         delay(p)
+        if (band?.isFirst == true) play(band, p, work)
         timeConstants(p)
         val first = if (isFirstShaped && p[GAIN] != 0.0) p[FIRST] / p[GAIN] else 0.0
         val asymmetry = if (Cause.ASYMMETRIC_RESPONSE in causes) p[slot(Cause.ASYMMETRIC_RESPONSE)] else 0.0
@@ -176,10 +178,11 @@ internal class ResponseModel(
             second.copyInto(out)
         }
         if (limit != null && !isWithin) lags.slew(out, p[slot(limit)] / abs(p[GAIN]))
-        terms.firstOrNull { it.cause == Cause.HYSTERESIS }?.let { term ->
-            lags.play(out, p[slot(term)] / abs(p[GAIN]), if (term.hasOwnStart) p[ownStart(term)] else 0.0)
-        }
+        if (band?.isFirst == false) play(band, p, out)
     }
+
+    private fun play(band: Term, p: DoubleArray, shown: DoubleArray) =
+        lags.play(shown, p[slot(band)] / abs(p[GAIN]), if (band.hasOwnStart) p[ownStart(band)] else 0.0)
 
     /**
      * The parts that are linear in the truth, for [p]: gain, offset, first state and all that is not linear left out.
@@ -296,7 +299,7 @@ internal class ResponseModel(
         first: Double,
         most: Double = Double.POSITIVE_INFINITY,
     ) {
-        val isTruth = input === work && !isDelayed
+        val isTruth = input === work && !isDelayed && band?.isFirst != true
         val curve = if (isTruth && !held) truthCurve() else spline
         if (!held && !isTruth) spline.fitForLags(input)
         if (asymmetry == 0.0 && most == Double.POSITIVE_INFINITY) {
@@ -369,16 +372,6 @@ internal class ResponseModel(
         const val OFFSET = 2
         const val FIRST = 3
         const val BASE = 4
-
-        /** Causes of a response that is not the same lag all the time, or not one. Two in a row have a first state of their own. */
-        private val SHAPING_FIRST = setOf(
-            Cause.TWO_PATH_RESPONSE,
-            Cause.ASYMMETRIC_RESPONSE,
-            Cause.FLOW_DEPENDENT_RESPONSE,
-            Cause.TEMPERATURE_DEPENDENT_RESPONSE,
-            Cause.SLEW_LIMIT,
-            Cause.HYSTERESIS,
-        )
 
         /** An end of the range beyond this is none, sensor units. */
         const val NO_END = 1e9

@@ -9,6 +9,7 @@ import stillwater.diagnose.Cause
  * @property times when it acts, s after the first row, for jumps. @property isEitherWay whether a dead time may be below
  * 0, because the reference is late. @property isQuiet whether the condition is taken without most of its own noise.
  * @property isWithin whether it is the lag's own rate that is limited, not that of what the lag shows.
+ * @property isFirst whether a dead band is one of the water, which the lag then follows, not of what the lag shows.
  * @property hasOwnStart whether what it adds to the lag has a first state of its own: of a sensor that had been in water
  * that moved each part is somewhere else.
  */
@@ -19,6 +20,7 @@ internal data class Term(
     val isEitherWay: Boolean = false,
     val isQuiet: Boolean = false,
     val isWithin: Boolean = false,
+    val isFirst: Boolean = false,
     val hasOwnStart: Boolean = false,
 ) {
     /** What tells terms of one cause apart: jumps of another time, or another form of it, are the same term. */
