@@ -75,8 +75,10 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
             is SensorStage.Combined -> combined(stage)
             is SensorStage.Delay -> deadTime += stage.deadTime
             is SensorStage.Slew -> put(Cause.SLEW_LIMIT, stage.rate * abs(gainLeft()))
-            is SensorStage.Backlash ->
-                found[Term(Cause.HYSTERESIS, isFirst = timeConstant.isNaN())] = doubleArrayOf(stage.width * abs(gainLeft()))
+            is SensorStage.Backlash -> {
+                val term = Term(Cause.HYSTERESIS, isFirst = timeConstant.isNaN())
+                found[term] = doubleArrayOf(stage.width * abs(gainLeft()))
+            }
             is SensorStage.Range -> range(stage)
             is SensorStage.Drifting -> drift += stage.rate * gainLeft()
             is SensorStage.Jumps -> jumps(stage)

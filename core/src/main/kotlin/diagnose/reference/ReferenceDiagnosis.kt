@@ -142,6 +142,11 @@ internal class ReferenceDiagnosis(
      */
     private fun likelier(quiet: ReferenceDiagnosis): Weighing {
         val quieter = quiet.weighed()
+        if (quieter.chosen.isEmpty()) {
+            // With no more causes than none this log explains what its base does.
+            quieter.spikes.forEach { used[it] = false }
+            if (models.settled(null).score <= quieter.explained) return quieter
+        }
         val noisier = weighed()
         val isLikelier = noisier.explained > quieter.explained + HELD && noisier.chosen.size <= quieter.chosen.size
         return if (isLikelier) noisier else quieter

@@ -39,11 +39,13 @@ internal class SampleLevels(
 
     /** The reference's mean over each stretch, its own units, length n. */
     val means: DoubleArray = reference.copyOf().also { out ->
-        for ((k, from) in starts.withIndex()) out.fill(reference.asList().subList(from, ends[k]).average(), from, ends[k])
+        for ((k, from) in starts.withIndex()) {
+            out.fill(reference.copyOfRange(from, ends[k]).average(), from, ends[k])
+        }
     }
 
     /** Whether so few stretches are so long that they say more than their rows. */
-    val isFew: Boolean get() = starts.size <= minOf(MOST, reference.size / FEWEST_ROWS)
+    val isFew: Boolean get() = starts.size <= minOf(MOST, reference.size / FEWEST_ROWS, NUMBERS / reference.size)
 
     /**
      * Heights as reference and readings say them, the reference's units, length n, and twice the log-likelihood then. The readings are
@@ -78,7 +80,7 @@ internal class SampleLevels(
         return course to worth
     }
 
-    /** Where the truth goes on at another height within the stretch [from] until [to], by steps of a few times the noise, and [from]. */
+    /** Where the truth goes on at another height within the stretch [from] until [to], by a few times the noise, and [from]. */
     private fun parts(from: Int, to: Int): List<Int> {
         val count = to - from
         val mean = (from until to).sumOf { reference[it] } / count
@@ -123,10 +125,13 @@ internal class SampleLevels(
         const val FEWEST_ROWS = 4
         const val TURNS = 3
 
+        /** Of all stretches and rows: a column for each is kept. */
+        const val NUMBERS = 4_000_000
+
         /** Of the noise, for derivatives. */
         const val STEP = 1e-3
 
-        /** Squares of the noise that a step takes off at least. A stretch in two costs little where its heights are told as one. */
+        /** Squares of the noise that a step takes off at least: a stretch in two costs little. */
         const val STEPS = 12.0
     }
 }

@@ -63,6 +63,7 @@ internal class Weighing(
     private val baseHeldOut = HeldOut.score(base, used)
     private val truth = requireNotNull(series.reference) { "weighing needs a reference" }
     private val terms = terms().filter { it.cause.isAdded || !ConstantTruth.isOf(series) }
+
     /** What was tried, each cause alone first. */
     val forward = ForwardSearch(search, base, baseHeldOut, terms, settings, loops) { told(terms.size) }
 
