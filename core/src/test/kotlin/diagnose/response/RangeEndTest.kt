@@ -56,10 +56,10 @@ class RangeEndTest {
 
     @Test
     fun aReadingThatAnEndOfTheRangeCutsOffAloneIsNotWild() {
-        val shown = bursts(java.util.Random(SEED + 10)) { _, it -> it }.values.sortedDescending()
+        val shown = bursts(java.util.Random(SEED + 10)) { _, value -> value }.values.sortedDescending()
         // In each of the two highest bursts no more than a row or two is beyond it.
         val end = shown[3] - 0.05
-        val result = Diagnosis(bursts(java.util.Random(SEED + 11)) { _, it -> minOf(it, end) }).run()
+        val result = Diagnosis(bursts(java.util.Random(SEED + 11)) { _, value -> minOf(value, end) }).run()
         assertEquals(Verdict.Named(listOf(Cause.SATURATION)), result.verdict)
         val upper = checkNotNull(result.extended).parameters.single { it.name == "upper" }
         assertEquals(end, upper.value, 0.06)
@@ -69,7 +69,7 @@ class RangeEndTest {
     @Test
     fun wildReadingsBelowTheWaterAreNoEndOfTheRange() {
         val wild = setOf(70, 133, 222, 345, 480)
-        val log = bursts(java.util.Random(SEED + 12)) { i, it -> if (i in wild) it - 0.4 else it }
+        val log = bursts(java.util.Random(SEED + 12)) { i, value -> if (i in wild) value - 0.4 else value }
         val verdict = Diagnosis(log).run().verdict
         assertTrue(verdict !is Verdict.Named || Cause.SATURATION !in verdict.causes, "$verdict")
     }
