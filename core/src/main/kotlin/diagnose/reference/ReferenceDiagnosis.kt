@@ -270,6 +270,7 @@ internal class ReferenceDiagnosis(
      * moment between rows, no cause is likelier than one.
      */
     private fun better(first: Weighing, margin: Double, steps: Steps): Weighing {
+        if (unknown.isSharp && FarBehind(first, models, longest).isSo(steps)) return first
         val rows = used.copyOf()
         val second = weighing(steps)
         val least = when {
