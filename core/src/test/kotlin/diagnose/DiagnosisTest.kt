@@ -34,7 +34,7 @@ class DiagnosisTest {
         assertEquals(6.0, result.baseline.parameters.first().value, 0.12)
     }
 
-    /** Such a log is weighed twice. */
+    /** Such a log is weighed twice where something is named. */
     @Test
     fun progressGrowsWhereTheReferenceIsNoisy() {
         val random = Random(8)
@@ -42,7 +42,7 @@ class DiagnosisTest {
         val noisy = DoubleArray(n) { truth[it] + 0.1 * (random.nextDouble() - 0.5) }
         val told = ArrayList<Double>()
         val even = DoubleArray(n) { it.toDouble() }
-        val log = MeasuredSeries(even, still, still, log(SensorStage.Lag(6.0)).values, noisy)
+        val log = MeasuredSeries(even, still, still, log(SensorStage.Asymmetric(9.0, 5.0)).values, noisy)
         Diagnosis(log, progress = told::add).run()
         assertEquals(told.sorted(), told)
         assertEquals(1.0, told.last())
