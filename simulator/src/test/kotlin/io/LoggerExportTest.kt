@@ -4,11 +4,9 @@ import org.junit.jupiter.api.io.TempDir
 import org.junit.jupiter.params.ParameterizedTest
 import org.junit.jupiter.params.provider.MethodSource
 import stillwater.model.BoatTime
-import stillwater.model.Position
 import java.nio.charset.Charset
 import java.nio.file.Path
 import kotlin.io.path.writeBytes
-import kotlin.io.path.writeText
 import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
@@ -73,15 +71,6 @@ class LoggerExportTest {
         val twice = SurveyLog.open(again, case.choice.copy(value = "twice")).readings()
         assertEquals(listOf(16.2, 16.4, 16.6), twice.map { it.value })
         assertEquals(readings.map { it.time }, twice.map { it.time })
-    }
-
-    @Test
-    fun metresAlongALineAreAPlaceWhereNoneIsNeeded() {
-        val file = directory.resolve("line.csv").apply { writeText("time_s,x_m,DO,sample\n0,5,8.1,8\n60,7,8.2,8\n") }
-        val choice = LogChoice(value = "DO", conditions = mapOf("reference" to "sample"), needsPlace = false)
-        val log = SurveyLog.open(file, choice)
-        val places = log.readings().map { it.position }
-        assertEquals(listOf(Position(5.0, 0.0), Position(7.0, 0.0)), places)
     }
 
     @Test
