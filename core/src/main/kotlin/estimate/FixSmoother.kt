@@ -179,16 +179,8 @@ public class FixSmoother internal constructor(private val fixes: LoggedFixes, gi
             return DoubleArray(n) { k -> if (k == 0) 0.0 else at[k] - at[k - 1] }
         }
 
-        private fun DoubleArray.at(time: Double): Double {
-            if (isEmpty()) return 0.0
-            val found = fixes.headingTimes.binarySearch(time)
-            if (found >= 0) return this[found]
-            val after = -found - 1
-            if (after == 0 || after == size) return this[(after - 1).coerceAtLeast(0)]
-            val from = fixes.headingTimes[after - 1]
-            val share = (time - from) / (fixes.headingTimes[after] - from)
-            return this[after - 1] + share * (this[after] - this[after - 1])
-        }
+        private fun DoubleArray.at(time: Double): Double =
+            if (isEmpty()) 0.0 else straight(fixes.headingTimes, time)
 
         /** Whether headings were known and are silent for long between [from] and [to]. */
         private fun isUnknown(from: Double, to: Double): Boolean {

@@ -179,10 +179,9 @@ internal data class CsvColumns(
             val x = names.firstOrNull { ColumnNames.plain(it) == "x" }
             val y = names.firstOrNull { ColumnNames.plain(it) == "y" }
             val depth = names.firstOrNull { ColumnNames.isDepth(it) }
-            val alone = names.firstOrNull { it == X }
             return when {
                 x != null && y != null -> " (--x '$x' --y '$y' if these are metres)"
-                alone != null -> " (--x '$alone' for a transect)"
+                X in names -> " (--x '$X' for a transect)"
                 depth != null -> " (--x '$depth' for a profile)"
                 else -> " (without places: diagnose or correct with --reference, or correct with --sensor)"
             }

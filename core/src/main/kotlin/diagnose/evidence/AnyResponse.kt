@@ -8,6 +8,7 @@ import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Term
 import stillwater.estimate.Turns
+import stillwater.estimate.straight
 
 /**
  * What a linear response of any shape would show in a log whose reference hardly turns.
@@ -51,15 +52,7 @@ internal class AnyResponse(private val base: ModelFit) {
         DoubleArray(column.size).also { fit.noise.whiten(column, it) }
 
     /** The truth [lag] s before row [i]; before the log that of its first row. */
-    private fun seen(i: Int, lag: Double): Double {
-        val time = series.times[i] - lag
-        val at = series.times.binarySearch(time)
-        if (at >= 0) return truth[at]
-        val after = -at - 1
-        if (after == 0) return truth[0]
-        val share = (time - series.times[after - 1]) / (series.times[after] - series.times[after - 1])
-        return truth[after - 1] + share * (truth[after] - truth[after - 1])
-    }
+    private fun seen(i: Int, lag: Double): Double = truth.straight(series.times, series.times[i] - lag)
 
     companion object {
         /** What a response of another shape does as well where the truth hardly turns. */

@@ -3,8 +3,6 @@ package stillwater.diagnose.reference
 import stillwater.diagnose.Cause
 import stillwater.diagnose.Loops
 import stillwater.diagnose.all
-import stillwater.diagnose.evidence.Trial
-import stillwater.diagnose.evidence.without
 import stillwater.diagnose.noise.CorrelatedNoise
 import stillwater.diagnose.response.Fitting
 import stillwater.diagnose.response.ModelFit
@@ -14,27 +12,20 @@ import stillwater.diagnose.response.Scales
 import stillwater.diagnose.response.Term
 import stillwater.diagnose.response.UnknownTruth
 import stillwater.diagnose.three
+import stillwater.estimate.straight
 import kotlin.math.abs
-
-/** What explains a log in the place of causes and is none: in [words], with twice its log-likelihood less what it gains by chance. */
-internal class Rival(val words: String, val worth: Double)
 
 /**
  * A reference whose clock goes at another rate than the readings': they are ever later than it, or ever earlier. No cause of the
  * list, and much like a dead time of the mean of that, where sharp steps are in doubt by a row or two.
  *
- * @param base the model without causes. @param chosen causes, one after the other.
+ * @param rest what was chosen, without delays.
  */
-internal class ClockDrift(
-    private val base: ModelFit,
-    private val chosen: List<Trial>,
-    private val longest: Double,
-    private val loops: Loops,
-) {
-    private val last = chosen.lastOrNull()?.fit ?: base
-    private val series = base.model.series
+internal class ClockDrift(private val rest: WithoutDelays, private val loops: Loops) {
+    private val last = rest.last
+    private val series = last.model.series
     private val times = series.times
-    private val gone = chosen.filter { it.term.cause in ReferenceLead.ALIKE }
+    private val truth = requireNotNull(series.reference) { "a clock is a reference's" }
     private val middle = (times.first() + times.last()) / 2
 
     /** That one clock is fast, where that explains the log better than what was chosen; else null. */
@@ -45,14 +36,13 @@ internal class ClockDrift(
         val change = abs(rate) * series.duration
         val isSteady = delays.zipWithNext().all { (one, next) -> (next - one) * rate > 0 }
         if (!isSteady || change < LEAST_ROWS * series.period) return null
-        val around = TIMES.flatMap { times -> AROUND.map { times * rate to delays[PARTS / 2] + it * series.period } }
-        val (best, score) = loops.all(around) { it to with(it.first, it.second).score }.maxBy { it.second }
-        val cost = chosen.sumOf { it.cost } - gone.sumOf { it.cost } + NUMBERS
-        if (score - cost < last.score - chosen.sumOf { it.cost } + CLEARLY) return null
+        val around = RATES.flatMap { part -> AROUND.map { part * rate to delays[PARTS / 2] + it * series.period } }
+        val (best, fit) = loops.all(around) { it to with(it.first, it.second) }.maxBy { it.second.score }
         val half = best.first * series.duration / 2
-        val words = "the readings are ${late(best.second - half)} the reference at the beginning and " +
-            "${late(best.second + half)} it at the end, as where one of two clocks is fast"
-        return Rival(words, score - cost)
+        return rest.rival(fit, NUMBERS) {
+            "the readings are ${late(best.second - half)} the reference at the beginning and " +
+                "${late(best.second + half)} it at the end, as where one of two clocks is fast"
+        }
     }
 
     private fun late(delay: Double) =
@@ -74,45 +64,38 @@ internal class ClockDrift(
         return STARTS.map { start ->
             val numbers = model.carried(last.model, last.numbers)
             numbers[slot] = (known + start * series.period).coerceIn(parameter.lower, parameter.upper)
-            Fitting.fit(model, numbers, free, rows, longest, noise = noise)
+            Fitting.fit(model, numbers, free, rows, rest.longest, noise = noise)
         }.maxBy { it.score }.numbers[slot]
     }
 
     /** The model without delays where readings are [delay] s later than the reference in the middle of the log, and by [rate] more each second. */
     private fun with(rate: Double, delay: Double): ModelFit {
-        val truth = checkNotNull(series.reference)
         val isSharp = last.model.scales.unknown?.isSharp == true
-        var k = 0
-        val log = series.withQuieter(
-            DoubleArray(times.size) { i ->
-                // When a sharp step came is known to a row: as likely before the middle between two as after it.
-                val near = if (isSharp) series.period / 2 else 0.0
-                val time = times[i] - delay - rate * (times[i] - middle) + near
-                while (k + 1 < times.size && times[k + 1] <= time) k++
-                val next = minOf(k + 1, times.size - 1)
-                val share = if (next == k) 0.0 else ((time - times[k]) / (times[next] - times[k])).coerceIn(0.0, 1.0)
-                if (isSharp) truth[k] else truth[k] + share * (truth[next] - truth[k])
-            },
-        )
+        val course = DoubleArray(times.size) { i ->
+            val time = times[i] - delay - rate * (times[i] - middle)
+            if (isSharp) truth[lastBefore(time + series.period / 2)] else truth.straight(times, time)
+        }
+        val log = series.withQuieter(course)
         // A step is where the reference has it to a row.
-        val unknown = UnknownTruth.of(log).let { if (it.isSharp) it.seen(SHORT) else it }
-        val scales = last.scales(Scales(log, unknown), unknown, last.model.steps.isHeld)
-        val tau = base.numbers[ResponseModel.TIME_CONSTANT]
-        return last.without(gone, tau, scales, last.model.steps, last.noise.used, longest)
+        val unknown = UnknownTruth.of(log).let { if (it.isSharp) it.toARow() else it }
+        val steps = last.model.steps
+        val (tau, gain) = last.numbers.let { it[ResponseModel.TIME_CONSTANT] to it[ResponseModel.GAIN] }
+        val scales = Scales(log, unknown, unknown.shocks(tau, gain, last.spread, steps.isHeld))
+        return rest.fit(scales, steps, rest.base.numbers[ResponseModel.TIME_CONSTANT])
     }
+
+    /** The last row that is not after [time], or the first. When a sharp step came is as likely before the middle between two as after it. */
+    private fun lastBefore(time: Double): Int = times.binarySearch(time).let { if (it >= 0) it else maxOf(-it - 2, 0) }
 
     private companion object {
         const val PARTS = 3
         const val FEWEST_ROWS = 60
 
-        /** A time so short that it is none, s. */
-        const val SHORT = 1e-9
-
         /** Rows by which the delay changes over the log at least. */
         const val LEAST_ROWS = 2.0
 
         /** Of the rate that the parts tell, and rows beside what the middle one does. */
-        val TIMES = listOf(0.7, 0.85, 1.0, 1.15, 1.3)
+        val RATES = listOf(0.7, 0.85, 1.0, 1.15, 1.3)
         val AROUND = listOf(-1.0, -0.5, 0.0, 0.5, 1.0)
 
         /** Rows beside the delay that is known, from which a part's is looked for. */
@@ -120,8 +103,5 @@ internal class ClockDrift(
 
         /** Twice the log-likelihood that two numbers, and the best of so many, gain by chance. */
         const val NUMBERS = 8.0
-
-        /** The same by which this must be likelier than causes of the list, which are common. */
-        const val CLEARLY = 18.0
     }
 }

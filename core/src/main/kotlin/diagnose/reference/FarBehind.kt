@@ -1,7 +1,6 @@
 package stillwater.diagnose.reference
 
 import stillwater.diagnose.Cause
-import stillwater.diagnose.noise.CorrelatedNoise
 import stillwater.diagnose.response.Fitting
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ResponseModel
@@ -26,9 +25,8 @@ internal class FarBehind(private val first: Weighing, private val models: BaseMo
         val start = model.carried(fit.model, fit.numbers)
         start[slot] += (steps.lead - fit.model.steps.lead) * series.period
         val free = BooleanArray(start.size) { it >= ResponseModel.BASE || fit.free[it] }
-        val noise = fit.noise
-        val guess = CorrelatedNoise(series.times, noise.share, noise.time, noise.used, model.scales.shocks)
-        return Fitting.fit(model, start, free, noise.used, longest, guess = guess)
+        val rows = fit.noise.used
+        return Fitting.fit(model, start, free, rows, longest, guess = model.noise(fit.noise, rows))
     }
 
     private companion object {

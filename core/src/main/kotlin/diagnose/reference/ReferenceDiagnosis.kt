@@ -6,7 +6,6 @@ import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnose.Loops
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.ProgressParts
-import stillwater.diagnose.algebra.squares
 import stillwater.diagnose.evidence.BeyondDoubt
 import stillwater.diagnose.evidence.Spikes
 import stillwater.diagnose.evidence.TooLittle
@@ -20,13 +19,11 @@ import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.RangeEnd
 import stillwater.diagnose.response.ReferenceGaps
 import stillwater.diagnose.response.ReferenceLead
-import stillwater.diagnose.response.ReferenceNoise
 import stillwater.diagnose.response.Resolution
 import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Scales
 import stillwater.diagnose.response.Steps
 import stillwater.diagnose.response.UnknownTruth
-import stillwater.diagnose.track.SmoothCourse
 import stillwater.estimate.LagWeights
 import kotlin.math.abs
 import kotlin.math.sqrt

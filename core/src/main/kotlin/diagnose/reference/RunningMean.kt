@@ -3,10 +3,7 @@ package stillwater.diagnose.reference
 import stillwater.diagnose.Loops
 import stillwater.diagnose.all
 import stillwater.diagnose.evidence.AveragedNoise
-import stillwater.diagnose.evidence.Trial
-import stillwater.diagnose.evidence.without
 import stillwater.diagnose.response.ModelFit
-import stillwater.diagnose.response.ReferenceLead
 import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Steps
 import stillwater.diagnose.response.refined
@@ -20,17 +17,15 @@ import stillwater.diagnose.three
  * reference for each V tells. The truth goes on evenly between rows or is held over each step ([Steps]), which of a few rows'
  * mean is most of what there is to see.
  *
- * @param base the model without causes. @param chosen causes, one after the other. @param averaged what the residuals of the last
- *   say of noise that is averaged; null for nothing.
+ * @param rest what was chosen, without delays. @param averaged what the residuals of all of it say of noise that is averaged; null
+ *   for nothing.
  */
 internal class RunningMean(
-    private val base: ModelFit,
-    private val chosen: List<Trial>,
-    private val longest: Double,
+    private val rest: WithoutDelays,
     private val averaged: AveragedNoise?,
     private val loops: Loops,
 ) {
-    private val last = chosen.lastOrNull()?.fit ?: base
+    private val base = rest.base
     private val series = base.model.series
     private val times = series.times
 
@@ -50,37 +45,35 @@ internal class RunningMean(
     fun rival(): Rival? {
         // How the truth went between rows far apart is not known.
         if (series.isSparse) return null
-        val gone = chosen.filter { it.term.cause in ReferenceLead.ALIKE }
-        return mean(gone) ?: if (gone.isEmpty()) null else averaged?.let { Rival(it.words(), last.score) }
+        return mean() ?: if (rest.hadSome) averaged?.let { Rival(it.words(), rest.last.score) } else null
     }
 
-    private fun mean(gone: List<Trial>): Rival? {
-        val (window, fit) = best(gone) ?: return null
-        val cost = chosen.sumOf { it.cost } - gone.sumOf { it.cost } + WINDOW
-        if (fit.score - cost < last.score - chosen.sumOf { it.cost } + CLEARLY) return null
+    private fun mean(): Rival? {
+        val (window, fit) = best() ?: return null
         val tau = fit.numbers[ResponseModel.TIME_CONSTANT]
         val lag = if (tau < series.period / 2) "" else " of what a lag of ${three(tau)} s shows"
-        val words = "the readings look like running means over ${three(window)} s$lag, as an instrument that " +
-            "${AveragedNoise.AVERAGES} gives them: half of that, ${three(window / 2)} s, they are late"
-        return Rival(words, fit.score - cost)
+        return rest.rival(fit, WINDOW) {
+            "the readings look like running means over ${three(window)} s$lag, as an instrument that " +
+                "${AveragedNoise.AVERAGES} gives them: half of that, ${three(window / 2)} s, they are late"
+        }
     }
 
     /** The likeliest window and the model with it; null where that is the shortest or the longest that is looked for. */
-    private fun best(gone: List<Trial>): Pair<Double, ModelFit>? {
+    private fun best(): Pair<Double, ModelFit>? {
         val windows = generateSequence(SHORTEST * series.period) { it * FACTOR }
-            .takeWhile { it < minOf(series.duration / PARTS, longest) }.toList()
+            .takeWhile { it < minOf(series.duration / PARTS, rest.longest) }.toList()
         if (windows.isEmpty()) return null
         return loops.all(WAYS) { way ->
-            fun at(window: Double) = fit(window, way, gone)
+            fun at(window: Double) = fit(window, way)
             val best = loops.all(windows) { it to at(it) }.maxBy { it.second.score }
             refined(best, FACTOR, { it.score }, ::at)
         }.maxBy { it.second.score }.takeIf { it.first in windows.first()..windows.last() }
     }
 
-    private fun fit(window: Double, steps: Steps, gone: List<Trial>): ModelFit {
+    private fun fit(window: Double, steps: Steps): ModelFit {
         val log = series.withQuieter(means(window, if (steps.isHeld) held else even))
         val tau = maxOf(base.numbers[ResponseModel.TIME_CONSTANT] - window / 2, series.period)
-        return last.without(gone, tau, base.model.scales.of(log), steps, last.noise.used, longest)
+        return rest.fit(base.model.scales.of(log), steps, tau)
     }
 
     /** Means over [window] s before each row of the truth of which [integral] is; before the log it was what its first row has. */
@@ -111,8 +104,5 @@ internal class RunningMean(
 
         /** Twice the log-likelihood that the best of so many windows gains by chance. */
         const val WINDOW = 6.0
-
-        /** The same by which this must be likelier than causes of the list, which are common. */
-        const val CLEARLY = 18.0
     }
 }

@@ -3,7 +3,6 @@ package stillwater.diagnose.reference
 import stillwater.diagnose.Loops
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.algebra.Cholesky
-import stillwater.diagnose.algebra.SymmetricSystem
 import stillwater.diagnose.algebra.dot
 import stillwater.diagnose.all
 import stillwater.diagnose.response.Fitting
@@ -65,17 +64,18 @@ internal class SampleLevels(
             }
             val known = DoubleArray(starts.size) { (ends[it] - starts[it]) / (spread * spread) }
             val variance = last.variance
-            val matrix = Array(starts.size) { k ->
-                DoubleArray(starts.size) { dot(white[k], white[it]) / variance }.also { it[k] += known[k] }
-            }
+            val precision = Cholesky(
+                Array(starts.size) { k ->
+                    DoubleArray(k + 1) { dot(white[k], white[it]) / variance }.also { it[k] += known[k] }
+                },
+            )
             val right = DoubleArray(starts.size) { dot(white[it], left) / variance }
-            val heights = SymmetricSystem(matrix, right).solve(0.0)
-            val logDeterminant = Cholesky(Array(starts.size) { matrix[it].copyOf() }).logDeterminant
+            val heights = precision.back(precision.half(right))
             course = means.copyOf()
             for ((k, from) in starts.withIndex()) for (i in from until ends[k]) course[i] += heights[k]
             last = last.fitted(course)
             val off = heights.indices.sumOf { heights[it] * heights[it] * known[it] - ln(known[it]) }
-            worth = last.score - off - logDeterminant
+            worth = last.score - off - precision.logDeterminant
         }
         return course to worth
     }

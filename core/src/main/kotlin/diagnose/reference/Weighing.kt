@@ -303,8 +303,9 @@ internal class Weighing(
         faults.words(explained, isTwoPath)?.let { return Verdict.Unexplained(it) }
         SlowRivals(last, chosen).words()?.let { return Verdict.Unexplained(it) }
         val isOpen = chosen.isNotEmpty() || isStructured
-        val mean = if (isOpen) RunningMean(base, chosen, search.longest, averaged, loops).rival() else null
-        val clock = ClockDrift(base, chosen, search.longest, loops).rival()
+        val rest = WithoutDelays(base, chosen, search.longest)
+        val mean = if (isOpen) RunningMean(rest, averaged, loops).rival() else null
+        val clock = ClockDrift(rest, loops).rival()
         listOfNotNull(mean, clock).maxByOrNull { it.worth }?.let { return Verdict.Unexplained(it.words) }
         val lasting = loose.lasting.size
         return when {
@@ -373,7 +374,7 @@ internal class Weighing(
 
         /** Of two paths that may be one. */
         const val EQUAL =
-            "A second path was fitted beside and is not named: it may be as fast as the first, or all there is, and then there is one."
+            "A second path was fitted and is not named: it may be as fast as the first or all there is."
 
         /** Of what was too small to be named. */
         const val BESIDE =

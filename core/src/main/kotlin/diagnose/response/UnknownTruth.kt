@@ -139,8 +139,10 @@ internal class UnknownTruth private constructor(
      * The same where readings show the truth [late] s later than the reference does, known to a row: they are shaken as
      * much later.
      */
-    fun seen(late: Double): UnknownTruth {
-        if (late == 0.0) return this
+    fun seen(late: Double): UnknownTruth = if (late == 0.0) this else toARow(late)
+
+    /** The same where readings show the truth [late] s later than the reference, each way known to a row. */
+    fun toARow(late: Double = 0.0): UnknownTruth {
         val moved = DoubleArray(times.size) { if (isGap[it]) doubts[it] else 0.0 }
         for (row in 1 until times.size) {
             if (isGap[row] || !(doubts[row] > 0)) continue

@@ -32,19 +32,8 @@ class ConstantTruthTest {
         val values = DoubleArray(n) { 8 + added(it) + 0.02 * random.nextGaussian() }
         val still = DoubleArray(n)
         val times = DoubleArray(n) { it.toDouble() }
-        return Diagnosis(
-            MeasuredSeries(
-                times,
-                still,
-                still,
-                values,
-                DoubleArray(n) {
-                    8.0
-                },
-                conditions,
-            ),
-            DiagnosisSettings(base = given),
-        ).run()
+        val log = MeasuredSeries(times, still, still, values, DoubleArray(n) { 8.0 }, conditions)
+        return Diagnosis(log, DiagnosisSettings(base = given)).run()
     }
 
     private fun named(result: DiagnosisResult) = assertIs<Verdict.Named>(result.verdict).causes
